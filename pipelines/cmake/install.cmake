@@ -1,0 +1,1 @@
+# What `cmake --install` puts down; find_package(overlook) finds it.

@@ -1,0 +1,35 @@
+# What every Overlook target shares: warnings, sanitizers, and arithmetic that gives the same bytes everywhere.
+
+add_library(overlook_options INTERFACE)
+target_compile_options(overlook_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(OVERLOOK_WERROR)
+  target_compile_options(overlook_options INTERFACE -Werror)
+endif()
+# Without this a compiler may fuse a*b+c into one rounding, and two compilers bake different bytes.
+target_compile_options(overlook_options INTERFACE -ffp-contract=off)
+if(OVERLOOK_SANITIZE)
+  target_compile_options(overlook_options INTERFACE -fsanitize=${OVERLOOK_SANITIZE} -fno-sanitize-recover=all
+                                                   -fno-omit-frame-pointer)
+  target_link_options(overlook_options INTERFACE -fsanitize=${OVERLOOK_SANITIZE})
+endif()
+
+# overlook_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...])
+# A library of Overlook's own. Includes are written from the root of the repository: "formats/container.h".
+function(overlook_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  add_library(overlook::${name} ALIAS ${name})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/overlook>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:overlook_options>)
+endfunction()
+
+# overlook_command(NAME SOURCES... [PRIVATE libs...])   A command that is installed.
+function(overlook_command name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PRIVATE" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_PRIVATE} overlook_options)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

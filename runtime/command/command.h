@@ -1,0 +1,55 @@
+// What all commands share: their common options, their one-line messages, their exit codes, their progress. The only part of Overlook that
+// prints or ends a process.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "formats/result.h"
+
+namespace overlook::command {
+
+struct Common {
+    unsigned threads = 0;        // 0 = all; never changes the bytes
+    uint64_t memory_bytes = 0;   // 0 = no cap
+    uint64_t seed = 1;
+    bool json = false;           // a report in JSON on stdout
+    bool quiet = false;          // no talk; errors are still said
+    bool verbose = false;
+    std::string progress = "auto";
+};
+
+enum class Uses { none = 0, seed = 1, memory = 2 };
+constexpr Uses operator|(Uses a, Uses b) { return Uses(int(a) | int(b)); }
+
+// Adds --threads, --json, --quiet, --verbose, --progress, --config (and --seed, --memory where used) to a command.
+void add_common(CLI::App& app, Common& common, Uses uses = Uses::none);
+
+// Parses and runs: maps CLI11's errors to exit 2 with one line on stderr, --help and --version to 0; applies --threads;
+// installs the signal handlers that leave nothing half-written; catches what escapes as our bug (70).
+int run(CLI::App& app, Common& common, int argc, char** argv, const std::function<int()>& body);
+
+// Says "NAME: MESSAGE" on stderr and returns the error's exit code.
+int fail(const std::string& name, const Error& error);
+
+// Lines to stderr unless --quiet (note), or only with --verbose (detail).
+void note(const Common& common, const std::string& line);
+void detail(const Common& common, const std::string& line);
+
+// A line with share done and time left, redrawn in place on a terminal; nothing in a pipe unless --progress always.
+class Progress {
+  public:
+    Progress(const Common& common, std::string what);
+    ~Progress();
+    void set(double done);  // 0..1, from one thread
+
+  private:
+    bool shown_ = false;
+    std::string what_;
+    std::chrono::steady_clock::time_point begin_, last_;
+};
+
+}  // namespace overlook::command

@@ -1,0 +1,42 @@
+// A pinhole camera in the local metric frame of a scene: x right, y up the raster (north), z height, metres.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+
+#include "formats/result.h"
+
+namespace overlook::view {
+
+struct Camera {
+    glm::dvec3 position_m{0};
+    double heading_deg = 0;     // clockwise from +y (north)
+    double pitch_deg = 0;       // up positive, -90..90
+    double fov_y_deg = 60;      // full vertical angle, 1..170
+    uint32_t width_px = 1280;
+    uint32_t height_px = 720;
+    double near_m = 1;
+};
+
+// Right, up and forward unit vectors.
+struct Axes {
+    glm::dvec3 right, up, forward;
+};
+Axes axes_of(const Camera& camera);
+
+// Pixels per unit of tangent: height_px / (2 tan(fov_y / 2)).
+double focal_px(const Camera& camera);
+
+// Secant of the angle between the axis and a corner of the image.
+double corner_secant(const Camera& camera);
+
+// Camera-relative projection with reversed depth (near = 1, infinity = 0); multiply positions minus position_m.
+glm::mat4 projection(const Camera& camera);
+glm::mat4 rotation(const Camera& camera);
+
+// "x,y,z,heading,pitch[,fov_y]" in metres and degrees. Fails with Exit::bad_command.
+Result<Camera> parse_camera(std::string_view text);
+
+}  // namespace overlook::view

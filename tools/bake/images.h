@@ -1,0 +1,31 @@
+// Pictures and rasters of numbers in, through OpenImageIO (whose only source file in the bakers is images.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/image.h"
+#include "formats/result.h"
+
+namespace overlook {
+
+// The first channel of an image as floats, exactly as stored (no scaling of integers to 0..1).
+struct NumberRaster {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<float> values;    // [height, width] row-major, top row first
+    bool values_are_integers = false;
+};
+
+// Part of an image, in pixels; width 0 = all of it.
+struct ImageWindow {
+    uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+
+Result<NumberRaster> read_number_raster(const std::string& path, const ImageWindow& window);
+
+// Any picture that OpenImageIO reads, as 8-bit RGB. Grey is spread to three channels, alpha is dropped, 16 bits are
+// rounded to 8.
+Result<ImageRgb8> read_image_rgb8(const std::string& path);
+
+}  // namespace overlook
