@@ -1,0 +1,36 @@
+// The verbs of `baked`: each looks at a baked file and answers one question.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/command/command.h"
+
+namespace overlook::baked {
+
+struct InfoArgs {
+    std::string file;
+};
+struct VerifyArgs {
+    std::string file;
+    std::string source;
+    std::vector<double> error_m;  // tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
+};
+struct DiffArgs {
+    std::string a, b;
+};
+struct ExportArgs {
+    std::string file;
+    double error_m = -1;
+    std::string output;
+    std::string space = "local";
+};
+
+// Each returns the command's exit code, having printed its answer to stdout (as JSON with --json) and its talk to stderr.
+int info(const InfoArgs& args, const command::Common& common);
+int verify(const VerifyArgs& args, const command::Common& common);
+int diff(const DiffArgs& args, const command::Common& common);
+int export_cut(const ExportArgs& args, const command::Common& common);
+
+}  // namespace overlook::baked
