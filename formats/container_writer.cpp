@@ -98,7 +98,10 @@ Result<void> Writer::add(Tag tag, uint32_t flags, Codec codec, std::span<const s
     std::span<const std::byte> stored = raw;
     if (codec == Codec::zstd) {
         Result<std::vector<std::byte>> frame = zstd_compressed(file_.path(), raw);
-        if (!frame) return tl::unexpected(frame.error());
+        if (!frame) {
+            sections_.pop_back();
+            return tl::unexpected(frame.error());
+        }
         compressed = std::move(*frame);
         stored = compressed;
     }
@@ -116,6 +119,8 @@ Result<void> Writer::begin(Tag tag, uint32_t flags) {
     if (Result<void> entered = enter(tag, flags, Codec::none); !entered) return entered;
     open_hash_.reset(new HashState{XXH3_createState()});
     if (open_hash_->xxh3 == nullptr || XXH3_64bits_reset(open_hash_->xxh3) != XXH_OK) {
+        open_hash_.reset();
+        sections_.pop_back();
         return impossible("{}: there is not enough memory to begin a section", file_.path());
     }
     return {};
