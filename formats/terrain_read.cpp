@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/compress.h"
+#include "formats/compression.h"
 #include "formats/parallel.h"
 #include "formats/terrain.h"
 #include "formats/terrain_blocks.h"
@@ -116,8 +116,9 @@ struct Fault {
 Fault read_block(std::span<const std::byte> stored, const DirectoryEntry& entry, const Block& block, Terrain& terrain) {
     if (block_checksum(stored) != entry.checksum) return {11, "its bytes do not match their checksum; was the file damaged?"};
     if (entry.raw_bytes > packed_bytes_max(terrain.shape, block)) return {12, "states more bytes than its vertices need"};
+    if (!fault_of_zstd_frame(stored, entry.raw_bytes).empty()) return {12, "is not a zstd frame of the bytes it states"};
     std::vector<std::byte> raw(entry.raw_bytes);
-    if (!decompress(stored, raw)) return {12, "does not decode to the bytes it states"};
+    if (!zstd_decode(stored, raw).empty()) return {12, "does not decode to the bytes it states"};
     if (const char* wrong = unpack_block(raw, block, terrain)) return {12, wrong};
     BlockRange range = range_of(terrain, block);
     if (range.low != entry.range.low || range.high != entry.range.high) return {13, "its heights are not in the range that its entry states"};

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "formats/compress.h"
+#include "formats/compression.h"
 #include "formats/parallel.h"
 #include "formats/terrain.h"
 #include "formats/terrain_blocks.h"
@@ -40,8 +40,8 @@ std::vector<std::byte> info_bytes(const Terrain& terrain) {
 }
 
 struct PackedBlock {
-    std::vector<std::byte> bytes;
-    size_t raw_bytes;
+    Result<std::vector<std::byte>> bytes;
+    size_t raw_bytes = 0;
     BlockRange range;
 };
 
@@ -54,18 +54,20 @@ Result<void> write_blocks(container::Writer& writer, const Terrain& terrain, std
         std::vector<PackedBlock> packed(std::min(kBlocksAtOnce, blocks.size() - first));
         parallel_ranges(packed.size(), 1, [&](size_t i, size_t) {
             std::vector<std::byte> raw = pack_block(terrain, blocks[first + i]);
-            packed[i] = {compress(raw), raw.size(), range_of(terrain, blocks[first + i])};
+            packed[i] = {zstd_compressed("terrain block", raw), raw.size(), range_of(terrain, blocks[first + i])};
         });
         for (size_t i = 0; i < packed.size(); ++i) {
+            if (!packed[i].bytes) return tl::unexpected(packed[i].bytes.error());
+            const std::vector<std::byte>& bytes = *packed[i].bytes;
             std::span<std::byte> entry = std::span(directory).subspan((first + i) * directory_at::entry_bytes, directory_at::entry_bytes);
             store_le<uint64_t>(entry, directory_at::offset, offset);
-            store_le<uint32_t>(entry, directory_at::stored_bytes, uint32_t(packed[i].bytes.size()));
+            store_le<uint32_t>(entry, directory_at::stored_bytes, uint32_t(bytes.size()));
             store_le<uint32_t>(entry, directory_at::raw_bytes, uint32_t(packed[i].raw_bytes));
-            store_le<uint64_t>(entry, directory_at::checksum, block_checksum(packed[i].bytes));
+            store_le<uint64_t>(entry, directory_at::checksum, block_checksum(bytes));
             store_le<uint32_t>(entry, directory_at::low, uint32_t(packed[i].range.low));
             store_le<uint32_t>(entry, directory_at::high, uint32_t(packed[i].range.high));
-            if (auto appended = writer.append(packed[i].bytes); !appended) return appended;
-            offset += packed[i].bytes.size();
+            if (auto appended = writer.append(bytes); !appended) return appended;
+            offset += bytes.size();
         }
     }
     return writer.end();
