@@ -33,8 +33,8 @@ double map_position(uint32_t i, uint32_t side) {
 
 // 0 in the plain (south-west), 1 in the range (north-east), along a front that wanders.
 double mountain_share(uint64_t seed, double u, double v) {
-    double bend = 0.16 * fractal_noise(seed + 100, u * 2.1, v * 2.1, 3);
-    return 0.62 * u + 0.78 * (1 - v) - 0.20 + bend;
+    double bend = 0.22 * fractal_noise(seed + 100, u * 2.1, v * 2.1, 3);
+    return 0.58 * u + 0.74 * (1 - v) - 0.06 + bend;
 }
 
 void lay_ground(Ground& ground, uint64_t seed, double extent_m, size_t cell) {
@@ -51,8 +51,8 @@ void lay_ground(Ground& ground, uint64_t seed, double extent_m, size_t cell) {
 
     double range = smooth_step(0.28, 0.86, share);
     double foreland = smooth_step(0.02, 0.30, share);
-    ground.uplift_m.values[cell] = 2.5 + 42 * foreland * hills + 430 * range * (0.20 + 0.80 * massif);
-    ground.softness.values[cell] = 1 + 0.5 * fractal_noise(seed + 600, wx / 3, wy / 3, 3);
+    ground.uplift_m.values[cell] = 2.5 + 42 * foreland * hills + 640 * range * (0.16 + 0.84 * massif);
+    ground.softness.values[cell] = 1 + 0.9 * fractal_noise(seed + 600, wx / 2, wy / 2, 5);
     double hardness = smooth_step(-0.25, 0.45, fractal_noise(seed + 700, wx / 1.7, wy / 1.7, 4));
     ground.slope_limit.values[cell] = 0.62 + range * (kSteepest - 0.62) * hardness * hardness;
     ground.soil.values[cell] = 1 - 0.85 * smooth_step(0.25, 0.6, share);
@@ -83,7 +83,7 @@ Grid refine(const Grid& coarse, uint32_t side, double cell_m, uint64_t seed) {
             double fx = x - i, fy = y - j;
             double top = coarse.at(i, j) + fx * (coarse.at(i + 1, j) - coarse.at(i, j));
             double bottom = coarse.at(i, j + 1) + fx * (coarse.at(i + 1, j + 1) - coarse.at(i, j + 1));
-            double rough = cell_m * 0.05 * (unit_from_hash(hash_of(seed, column, row)) - 0.5);
+            double rough = cell_m * 0.3 * (unit_from_hash(hash_of(seed, column, row)) - 0.5);
             fine.at(column, row) = top + fy * (bottom - top) + rough;
         }
     return fine;
@@ -101,9 +101,10 @@ Grid grow_range(uint64_t seed, uint32_t side, double cell_m, Ground& ground) {
         height_m = is_first ? Grid(sides[level], level_cell_m, kBaseM) : refine(height_m, sides[level], level_cell_m, seed + level);
         for (size_t i = 0; i < height_m.values.size(); ++i)
             if (ground.is_outlet[i]) height_m.values[i] = kBaseM;
-            else if (is_first) height_m.values[i] += 20 * unit_from_hash(hash_of(seed + 50, i, 0));
+            else if (is_first) height_m.values[i] += 600 * unit_from_hash(hash_of(seed + 50, i, 0));
         Rivers rivers;
         rivers.seed = seed + 900 + level;
+        rivers.wander = 0.9;
         rivers.step_count = is_first ? 120 : level >= 2 ? 40 : level == 1 ? 20 : 9;
         rivers.step = level == 0 ? 0.1 : 0.15;
         cut_rivers(height_m, ground.uplift_m, ground.softness, ground.slope_limit, ground.is_outlet, rivers);
@@ -121,13 +122,13 @@ void dig_lake(Grid& height_m, const Ground& ground, uint64_t seed) {
     for (size_t cell = 0; cell < area_m2.size(); ++cell) {
         double u = map_position(uint32_t(cell % side), side), v = map_position(uint32_t(cell / side), side);
         double share = mountain_share(seed, u, v);
-        bool is_in_front = share > 0.40 && share < 0.50 && u > 0.2 && u < 0.8 && v > 0.2 && v < 0.8;
+        bool is_in_front = share > 0.36 && share < 0.46 && u > 0.2 && u < 0.8 && v > 0.2 && v < 0.8;
         if (!is_in_front || area_m2[cell] <= best_area_m2) continue;
         best_area_m2 = area_m2[cell];
         best = cell;
     }
     if (best_area_m2 == 0) return;
-    double radius = 0.085 * side / (1 + 2 * kMarginShare);
+    double radius = 0.075 * side / (1 + 2 * kMarginShare);
     double depth_m = 0.006 * height_m.cell_m * side;
     double brim_m = height_m.values[best] + 0.35 * depth_m;
     double column = double(best % side), row = double(best / side);
