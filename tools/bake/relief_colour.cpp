@@ -72,8 +72,8 @@ uint8_t srgb_from_linear(double linear) {
 }
 
 Colour ground_colour(const Ground& g) {
-    static const Colour plain = linear_from_srgb(142, 150, 88), meadow = linear_from_srgb(104, 126, 66);
-    static const Colour forest = linear_from_srgb(58, 84, 50), alp = linear_from_srgb(126, 130, 82);
+    static const Colour plain = linear_from_srgb(146, 148, 98), meadow = linear_from_srgb(112, 128, 76);
+    static const Colour forest = linear_from_srgb(64, 86, 56), alp = linear_from_srgb(130, 132, 90);
     static const Colour scree = linear_from_srgb(150, 140, 124), rock = linear_from_srgb(116, 106, 98);
     static const Colour snow = linear_from_srgb(240, 243, 248), water = linear_from_srgb(38, 84, 104);
     if (g.is_water) return water;
@@ -103,7 +103,7 @@ std::vector<uint8_t> find_water(const Field& field, uint32_t least_cells) {
     for (uint32_t cell = 0; cell < field.height_m.size(); ++cell) {
         if (is_seen[cell] != 0 || std::isnan(field.height_m[cell])) continue;
         Surface surface = trace_surface(field, cell, is_seen);
-        bool is_lake = surface.cells.size() >= least_cells && surface.lower * 100 <= surface.rim * 3 &&
+        bool is_lake = surface.cells.size() >= least_cells && surface.cells.size() >= 5 * surface.rim && surface.lower * 100 <= surface.rim * 3 &&
                        surface.beyond * 4 <= surface.rim;
         if (!is_lake) continue;
         for (uint32_t wet : surface.cells) is_water[wet] = 1;

@@ -53,8 +53,8 @@ void lay_ground(Ground& ground, uint64_t seed, double extent_m, size_t cell) {
     double foreland = smooth_step(0.02, 0.30, share);
     ground.uplift_m.values[cell] = 2.5 + 42 * foreland * hills + 640 * range * (0.16 + 0.84 * massif);
     ground.softness.values[cell] = 1 + 0.9 * fractal_noise(seed + 600, wx / 2, wy / 2, 5);
-    double hardness = smooth_step(-0.25, 0.45, fractal_noise(seed + 700, wx / 1.7, wy / 1.7, 4));
-    ground.slope_limit.values[cell] = 0.62 + range * (kSteepest - 0.62) * hardness * hardness;
+    double hardness = smooth_step(-0.25, 0.45, fractal_noise(seed + 700, wx / 1.3, wy / 1.3, 6));
+    ground.slope_limit.values[cell] = 0.70 + range * (kSteepest - 0.70) * hardness;
     ground.soil.values[cell] = 1 - 0.85 * smooth_step(0.25, 0.6, share);
     bool is_low_edge = ground.uplift_m.is_border(cell) && share < 0.26;
     ground.is_outlet[cell] = is_low_edge;
@@ -128,7 +128,7 @@ void dig_lake(Grid& height_m, const Ground& ground, uint64_t seed) {
         best = cell;
     }
     if (best_area_m2 == 0) return;
-    double radius = 0.075 * side / (1 + 2 * kMarginShare);
+    double radius = 0.07 * side / (1 + 2 * kMarginShare);
     double depth_m = 0.006 * height_m.cell_m * side;
     double brim_m = height_m.values[best] + 0.35 * depth_m;
     double column = double(best % side), row = double(best / side);
@@ -141,6 +141,25 @@ void dig_lake(Grid& height_m, const Ground& ground, uint64_t seed) {
             double low = 1 - smooth_step(brim_m, brim_m + 1.2 * depth_m, here_m);
             here_m -= depth_m * (1 - off) * low;
         }
+}
+
+// Gullies and crags on steep ground, too small for the rivers.
+void roughen_slopes(Grid& height_m, double extent_m, uint64_t seed) {
+    Grid before = height_m;
+    uint32_t side = height_m.side;
+    parallel_ranges(side - 2, 16, [&](size_t begin, size_t end) {
+        for (uint32_t row = uint32_t(begin) + 1; row <= end; ++row)
+            for (uint32_t column = 1; column + 1 < side; ++column) {
+                double east = before.at(column + 1, row) - before.at(column - 1, row);
+                double south = before.at(column, row + 1) - before.at(column, row - 1);
+                double slope = std::sqrt(east * east + south * south) / (2 * before.cell_m);
+                double amount_m = 26 * smooth_step(0.25, 0.80, slope);
+                if (amount_m <= 0) continue;
+                double x = map_position(column, side) * extent_m, y = map_position(row, side) * extent_m;
+                double bend_m = 120 * gradient_noise(seed + 950, x / 500, y / 500);
+                height_m.at(column, row) += amount_m * (ridged_noise(seed + 960, (x + bend_m) / 420, (y - bend_m) / 420, 4) - 0.6);
+            }
+    });
 }
 
 Landscape cut_out(const Grid& height_m, uint32_t margin, uint32_t side) {
@@ -163,9 +182,10 @@ Landscape make_landscape(const LandscapeOptions& options) {
 
     widen_valleys(height_m, ground.is_outlet, 2.5e6, 75);
     dig_lake(height_m, ground, seed);
+    roughen_slopes(height_m, options.cell_size_m * (options.side - 1), seed);
 
     Grid creep = ground.soil;
-    for (double& strength : creep.values) strength = 0.02 + 0.16 * strength;
+    for (double& strength : creep.values) strength = 0.15 * strength;
     creep_soil(height_m, creep, 6);
     fall_rock(height_m, ground.slope_limit);
     fill_depressions(height_m, ground.is_outlet);
