@@ -1,0 +1,31 @@
+// Flying by hand: what keys and mouse do to the camera. Knows nothing of windows.
+#pragma once
+
+#include "formats/terrain.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::player {
+
+// What the hands do in one frame.
+struct Input {
+    double forward = 0, right = 0, up = 0;  // -1, 0 or 1
+    double turn_x_px = 0, turn_y_px = 0;    // mouse, right and down positive
+    double wheel = 0;                       // notches, up positive: faster
+    bool is_fast = false;
+};
+
+struct Flyer {
+    double speed_factor = 1;                // 1/64..64, by the wheel
+};
+
+constexpr double kLeastHeight_m = 2;        // the eye above the ground
+
+// Moves the camera by dt_s seconds: forward and right are level, up is up. The speed grows with the height above
+// the ground, so that near things and far things pass equally fast. The eye never comes nearer to the ground than kLeastHeight_m, along the
+// whole way and not only at its end.
+void fly(view::Camera& camera, Flyer& flyer, const Input& input, double dt_s, const terrain::Terrain& terrain);
+
+// The asked error after one press of + (coarser) or - (finer): a factor of 2^(1/2), from 1/16 to 256 pixels.
+double changed_error_px(double error_px, int presses);
+
+}  // namespace overlook::player

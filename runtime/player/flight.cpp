@@ -1,0 +1,82 @@
+#include "runtime/player/flight.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace overlook::player {
+namespace {
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+double mean_height_m(const terrain::Terrain& terrain, double otherwise_m) {
+    double sum = 0;
+    uint64_t count = 0;
+    for (int32_t height : terrain.heights) {
+        if (height == terrain::kVoid) continue;
+        sum += height;
+        ++count;
+    }
+    return count == 0 ? otherwise_m : terrain.height_offset_m + terrain.height_step_m * (sum / double(count));
+}
+
+}  // namespace
+
+view::Camera camera_at(const std::vector<view::Camera>& keys, double share) {
+    assert(!keys.empty());
+    double place = std::clamp(share, 0.0, 1.0) * double(keys.size() - 1);
+    size_t first = std::min(size_t(place), keys.size() - 1);
+    size_t second = std::min(first + 1, keys.size() - 1);
+    double t = place - double(first);
+    const view::Camera& a = keys[first];
+    const view::Camera& b = keys[second];
+
+    view::Camera camera = a;
+    camera.position_m = a.position_m + t * (b.position_m - a.position_m);
+    camera.heading_deg = a.heading_deg + t * std::remainder(b.heading_deg - a.heading_deg, 360.0);
+    camera.pitch_deg = a.pitch_deg + t * (b.pitch_deg - a.pitch_deg);
+    camera.fov_y_deg = a.fov_y_deg + t * (b.fov_y_deg - a.fov_y_deg);
+    return camera;
+}
+
+view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double highest_m, uint32_t width_px, uint32_t height_px) {
+    view::Camera camera;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    camera.fov_y_deg = 42;
+
+    double width_m = terrain.frame.metres_per_column * (terrain.shape.width - 1);
+    double depth_m = terrain.frame.metres_per_row * (terrain.shape.height - 1);
+    double diagonal_m = std::hypot(width_m, depth_m);
+    double mean_m = mean_height_m(terrain, lowest_m);
+
+    // Half-way between the corner's bisector and the way to the middle; the corner's own edges stay out of sight.
+    double to_middle_deg = degrees(std::atan2(width_m, depth_m));
+    camera.heading_deg = -(45 + to_middle_deg) / 2;
+    camera.position_m = {width_m * 0.97, -depth_m * 0.97, 0};
+    double above_mean_m = std::max(0.1 * diagonal_m, 0.75 * (highest_m - mean_m));
+    camera.position_m.z = mean_m + above_mean_m;
+    std::optional<double> ground = ground_m(terrain, camera.position_m.x, camera.position_m.y);
+    if (ground) camera.position_m.z = std::max(camera.position_m.z, *ground + 0.05 * diagonal_m);
+
+    double half_tangent = std::tan(camera.fov_y_deg / 2 * std::numbers::pi / 180);
+    camera.pitch_deg = -degrees(std::atan(0.42 * half_tangent));
+    return camera;
+}
+
+std::optional<double> ground_m(const terrain::Terrain& terrain, double x_m, double y_m) {
+    double column = x_m / terrain.frame.metres_per_column, row = -y_m / terrain.frame.metres_per_row;
+    if (!(column >= 0 && row >= 0 && column <= terrain.shape.width - 1 && row <= terrain.shape.height - 1)) return std::nullopt;
+    uint32_t left = std::min(uint32_t(column), terrain.shape.width - 2);
+    uint32_t top = std::min(uint32_t(row), terrain.shape.height - 2);
+    std::optional<double> highest;
+    for (uint32_t corner = 0; corner < 4; ++corner) {
+        uint32_t c = left + corner % 2, r = top + corner / 2;
+        if (terrain.is_void(c, r)) return std::nullopt;
+        highest = std::max(highest.value_or(terrain.height_m(c, r)), terrain.height_m(c, r));
+    }
+    return highest;
+}
+
+}  // namespace overlook::player

@@ -1,0 +1,43 @@
+#include "runtime/player/headless.h"
+
+#include <algorithm>
+
+#include "runtime/gl/context.h"
+#include "runtime/gl/png.h"
+#include "runtime/player/flight.h"
+#include "runtime/player/report.h"
+
+namespace overlook::player {
+
+Result<void> write_picture(const Plan& plan, const gl::Target& target, uint32_t frame, bool is_last) {
+    const std::string& pattern = plan.options.image;
+    if (pattern.empty() || (!is_last && !is_numbered(pattern))) return {};
+    Result<std::string> path = image_path(pattern, frame);
+    if (!path) return tl::unexpected(path.error());
+    return write_png(*path, target.read());
+}
+
+Result<void> run_headless(const Plan& plan, const command::Common& common, Scene read_scene) {
+    Result<gl::Context> context = gl::Context::headless();
+    if (!context) return tl::unexpected(context.error());
+    gl::ErrorCounter errors;
+    Scene scene = std::move(read_scene);  // goes before the context
+    Result<gl::Target> target = gl::Target::make(plan.width_px, plan.height_px, plan.options.samples);
+    if (!target) return tl::unexpected(target.error());
+    if (Result<void> uploaded = scene.upload(); !uploaded) return uploaded;
+
+    std::vector<view::Camera> keys = keys_of(plan, scene);
+    uint32_t frame_count = std::max(1u, plan.options.frames);
+    std::vector<FrameRecord> records;
+    command::Progress progress(common, "drawing");
+    for (uint32_t frame = 0; frame < frame_count; ++frame) {
+        double share = frame_count == 1 ? 0 : double(frame) / (frame_count - 1);
+        records.push_back(scene.draw(*target, camera_at(keys, share), plan.options.error_px, plan.draw));
+        if (Result<void> written = write_picture(plan, *target, frame, frame + 1 == frame_count); !written) return written;
+        progress.set(double(frame + 1) / frame_count);
+    }
+    if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
+    return deliver_report(plan, common, context->renderer(), records);
+}
+
+}  // namespace overlook::player

@@ -1,0 +1,38 @@
+// player: draws a baked terrain, in a window or into pictures.
+
+#include "runtime/command/command.h"
+#include "runtime/player/headless.h"
+#include "runtime/player/options.h"
+#include "runtime/player/scene.h"
+#include "runtime/player/window.h"
+
+namespace overlook::player {
+namespace {
+
+int play(const Options& options, const command::Common& common) {
+    Result<Plan> plan = plan_from(options);
+    if (!plan) return command::fail("player", plan.error());
+    Result<Scene> scene = Scene::read(options.file);
+    if (!scene) return command::fail("player", scene.error());
+
+    bool is_headless = options.headless;
+    if (!is_headless && !options.image.empty() && !has_display()) {
+        command::note(common, "player: there is no display; drawing the picture without a window");
+        is_headless = true;
+    }
+    Result<void> played = is_headless ? run_headless(*plan, common, std::move(*scene))
+                                      : run_in_window(*plan, common, std::move(*scene));
+    return played ? int(Exit::done) : command::fail("player", played.error());
+}
+
+}  // namespace
+}  // namespace overlook::player
+
+int main(int argc, char** argv) {
+    CLI::App app("Flies over a baked terrain: in a window, or --headless into pictures", "player");
+    overlook::command::Common common;
+    overlook::player::Options options;
+    overlook::player::add_options(app, options);
+    overlook::command::add_common(app, common);
+    return overlook::command::run(app, common, argc, argv, [&] { return overlook::player::play(options, common); });
+}

@@ -1,0 +1,126 @@
+#include "runtime/player/options.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace overlook::player {
+namespace {
+
+constexpr uint32_t kMostPixelsASide = 32768;
+constexpr double kMostError_px = 10000;
+constexpr double kFarthest_m = 1e9;
+constexpr uint32_t kMostFrames = 10'000'000;
+
+bool parse_side(std::string_view text, uint32_t& side_px) {
+    auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), side_px);
+    return problem == std::errc() && after == text.data() + text.size() && side_px >= 1 && side_px <= kMostPixelsASide;
+}
+
+Result<void> check_numbers(const Options& options) {
+    if (!(options.error_px > 0 && options.error_px <= kMostError_px)) {
+        return bad_command("--error-px {}: a number of pixels above 0 and up to {} is wanted", options.error_px, kMostError_px);
+    }
+    if (!(options.haze >= 0 && options.haze <= 10)) {
+        return bad_command("--haze {}: a number from 0 (clear) to 10 is wanted; 1 is a fair day", options.haze);
+    }
+    if (options.samples != 1 && options.samples != 2 && options.samples != 4 && options.samples != 8) {
+        return bad_command("--samples {}: 1, 2, 4 or 8 samples a pixel are wanted", options.samples);
+    }
+    if (options.frames > kMostFrames) return bad_command("--frames {}: at most {} are wanted", options.frames, kMostFrames);
+    if (options.wireframe && options.split_picture) {
+        return bad_command("--wireframe and --split-picture exclude each other");
+    }
+    return {};
+}
+
+// Where "%04d" stands in a name.
+struct NumberPlace {
+    size_t begin = std::string::npos, length = 0;
+    int digits = 0;
+};
+
+// False if a % begins anything else.
+bool find_number(const std::string& pattern, NumberPlace& place) {
+    place.begin = pattern.find('%');
+    if (place.begin == std::string::npos) return true;
+    size_t i = place.begin + 1;
+    for (; i < pattern.size() && pattern[i] >= '0' && pattern[i] <= '9' && place.digits < 10; ++i) {
+        place.digits = place.digits * 10 + (pattern[i] - '0');
+    }
+    place.length = i + 1 - place.begin;
+    return i < pattern.size() && pattern[i] == 'd' && place.digits <= 10 && pattern.find('%', i) == std::string::npos;
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, Options& options) {
+    app.add_option("file", options.file, "A baked terrain")->required()->type_name("FILE.ovl");
+    app.add_flag("--headless", options.headless, "Draw without a window");
+    app.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH")->capture_default_str();
+    app.add_option("--camera", options.cameras,
+                   "x,y,z,heading,pitch[,fov] in metres and degrees (z up, heading from north); several are flown through")
+        ->type_name("X,Y,Z,H,P")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--frames", options.frames, "Frames to draw; then end")->type_name("N");
+    app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
+        ->type_name("FILE.png");
+    app.add_option("--error-px", options.error_px, "Nothing in the picture is displaced by more than this")
+        ->type_name("PIXELS")
+        ->capture_default_str();
+    app.add_flag("--wireframe", options.wireframe, "Draw the triangles' edges");
+    app.add_flag("--split-picture", options.split_picture, "Left half wireframe, right half shaded");
+    app.add_option("--haze", options.haze, "How hazy the air is: 0 = clear, 1 = a fair day")->capture_default_str();
+    app.add_option("--samples", options.samples, "Samples a pixel (antialiasing): 1, 2, 4 or 8")->capture_default_str();
+    app.add_option("--report", options.report, "Write counts, times and predicted errors of every frame")->type_name("FILE.json");
+}
+
+Result<void> parse_size(std::string_view text, uint32_t& width_px, uint32_t& height_px) {
+    size_t cross = text.find('x');
+    if (cross == std::string_view::npos || !parse_side(text.substr(0, cross), width_px) ||
+        !parse_side(text.substr(cross + 1), height_px)) {
+        return bad_command("--size {}: WIDTHxHEIGHT is wanted, each from 1 to {}", text, kMostPixelsASide);
+    }
+    return {};
+}
+
+bool is_numbered(const std::string& pattern) {
+    return pattern.find('%') != std::string::npos;
+}
+
+Result<std::string> image_path(const std::string& pattern, uint32_t frame) {
+    NumberPlace place;
+    if (!find_number(pattern, place)) {
+        return bad_command("--image {}: a % begins the frame's number, such as %04d, and stands only once", pattern);
+    }
+    if (place.begin == std::string::npos) return pattern;
+    std::string path = pattern;
+    return path.replace(place.begin, place.length, fmt::format("{:0{}}", frame, place.digits));
+}
+
+Result<Plan> plan_from(const Options& options) {
+    if (Result<void> checked = check_numbers(options); !checked) return tl::unexpected(checked.error());
+    Plan plan;
+    plan.options = options;
+    if (Result<void> size = parse_size(options.size, plan.width_px, plan.height_px); !size) return tl::unexpected(size.error());
+    if (Result<std::string> path = image_path(options.image, 0); !path) return tl::unexpected(path.error());
+
+    for (const std::string& text : options.cameras) {
+        Result<view::Camera> camera = view::parse_camera(text);
+        if (!camera) return tl::unexpected(camera.error());
+        const glm::dvec3& at_m = camera->position_m;
+        if (std::abs(at_m.x) > kFarthest_m || std::abs(at_m.y) > kFarthest_m || std::abs(at_m.z) > kFarthest_m ||
+            std::abs(camera->heading_deg) > kFarthest_m) {
+            return bad_command("--camera {}: a number is beyond {}", text, kFarthest_m);
+        }
+        camera->width_px = plan.width_px;
+        camera->height_px = plan.height_px;
+        plan.keys.push_back(*camera);
+    }
+    if (options.wireframe) plan.draw.look = terrain::Look::wireframe;
+    if (options.split_picture) plan.draw.look = terrain::Look::split;
+    plan.draw.haze = options.haze;
+    return plan;
+}
+
+}  // namespace overlook::player

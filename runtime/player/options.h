@@ -1,0 +1,52 @@
+// What the player is asked to do, from its command line.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/result.h"
+#include "runtime/command/command.h"
+#include "runtime/terrain/draw.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::player {
+
+struct Options {
+    std::string file;                       // the baked terrain
+    bool headless = false;
+    std::string size = "1280x720";
+    std::vector<std::string> cameras;       // none = an overview of the terrain
+    uint32_t frames = 0;                    // 0 = one picture headless, endless in a window
+    std::string image;                      // where pictures go; empty = nowhere
+    std::string report;                     // where the report goes; empty = nowhere
+    double error_px = 1;
+    bool wireframe = false;
+    bool split_picture = false;
+    double haze = 1;
+    uint32_t samples = 4;
+};
+
+// The same, understood.
+struct Plan {
+    Options options;
+    uint32_t width_px = 0, height_px = 0;
+    std::vector<view::Camera> keys;         // with the size above; empty = an overview of the terrain
+    terrain::DrawOptions draw;
+};
+
+void add_options(CLI::App& app, Options& options);
+
+// Fails with Exit::bad_command and a line that names the option.
+Result<Plan> plan_from(const Options& options);
+
+// "WIDTHxHEIGHT", each 1..32768.
+Result<void> parse_size(std::string_view text, uint32_t& width_px, uint32_t& height_px);
+
+// The file of picture `frame`: "out/%04d.png" numbers them, any other name is one file. Fails with Exit::bad_command if a %
+// begins anything but one such number.
+Result<std::string> image_path(const std::string& pattern, uint32_t frame);
+bool is_numbered(const std::string& pattern);
+
+}  // namespace overlook::player

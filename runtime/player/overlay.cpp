@@ -1,0 +1,59 @@
+#include "runtime/player/overlay.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+namespace overlook::player {
+namespace {
+
+void text_line(const std::string& line) {
+    ImGui::TextUnformatted(line.data(), line.data() + line.size());
+}
+
+std::string megabytes(uint64_t bytes) {
+    return fmt::format("{:.2f} MB", double(bytes) / 1e6);
+}
+
+}  // namespace
+
+Overlay::Overlay(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().WindowRounding = 6;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Overlay::~Overlay() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Overlay::draw(const OverlayText& text) {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    ImGui::SetNextWindowPos(ImVec2(12, 12));
+    ImGui::SetNextWindowBgAlpha(0.62f);
+    const ImGuiWindowFlags plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+    ImGui::Begin("Overlook", nullptr, plain);
+    text_line(fmt::format("{} triangles, {} vertices tested, {} sent", text.frame->triangle_count, text.frame->tested_count,
+                          megabytes(text.frame->uploaded_bytes)));
+    text_line(fmt::format("refine {:6.2f} ms   draw {:6.2f} ms", text.frame->refine_ms, text.frame->draw_ms));
+    text_line(fmt::format("error  {:.3g} px asked, {:.3g} px predicted", text.error_px, text.frame->predicted_error_px));
+    text_line(fmt::format("speed  x {:.3g}", text.speed_factor));
+    text_line(fmt::format("{} x {}, {}{}", text.width_px, text.height_px, text.renderer->name,
+                          text.renderer->is_software ? " (software)" : ""));
+    ImGui::Separator();
+    text_line("W A S D move, Q E down/up, mouse looks, Shift faster, wheel speed");
+    text_line("+ - error, F wireframe, H this text, P picture, Esc ends");
+    ImGui::End();
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace overlook::player
