@@ -23,7 +23,6 @@ namespace overlook::terrain {
 constexpr container::Tag kKind = container::tag("TERR");
 constexpr int32_t kVoid = std::numeric_limits<int32_t>::min();  // a height that is not there
 constexpr uint8_t kMustSplit = 255;  // error code of a diamond that covers a void: never drawn unsplit
-constexpr uint32_t kBlockLog2Max = 7;  // a block spans 128 cells of its level, 129 x 129 vertices with its borders
 
 // Where a raster lies: a flat metric frame, x = column * metres_per_column (to the right of the raster), y = -row *
 // metres_per_row (up the raster), z = height in metres; its origin is the raster's first sample.
@@ -39,23 +38,22 @@ struct Frame {
     std::string crs;                // "EPSG:4326", or empty
 };
 
-// The shape of the hierarchy, which follows from the raster's size alone.
+// The shape of the hierarchy, which follows from the raster's size alone. A split vertex has the level of the lowest set bit of x | y:
+// at level t, with s = 2^t, its diamond's long side is 2s (or the diagonal of a square of side 2s).
 struct Shape {
-    uint32_t width = 0, height = 0;           // samples, >= 2 each
-    uint32_t root_log2 = 0;                   // a root square spans 2^root_log2 cells: the least power of two that covers the shorter side
-    uint32_t root_columns = 0, root_rows = 0; // root squares, enough to cover the raster
-    uint32_t block_log2 = 0;                  // min(kBlockLog2Max, root_log2)
-    uint32_t level_count = 0;                 // root_log2 - block_log2 + 1; level L has a vertex every 2^L cells
+    uint32_t width = 0, height = 0;            // samples, >= 2 each
+    uint32_t root_log2 = 0;                    // a root square spans 2^root_log2 cells, the least that covers the shorter side; also the count of levels
+    uint32_t root_columns = 0, root_rows = 0;  // root squares, enough to cover the raster
 
     uint32_t cells_x() const { return root_columns << root_log2; }  // virtual cells
     uint32_t cells_y() const { return root_rows << root_log2; }
 };
 Shape shape_of(uint32_t width, uint32_t height);
 
-// The vertices of one level: every 2^level cells, padded to whole blocks (which may reach less far than the roots).
+// The vertices of one level: every 2^level cells, as far as any diamond of that level reaches over the raster. Vertex (x, y) has index
+// (y >> level) * columns + (x >> level).
 struct LevelGrid {
-    uint32_t blocks_x = 0, blocks_y = 0;  // blocks that hold at least one sample
-    uint32_t columns = 0, rows = 0;       // (blocks << block_log2) + 1
+    uint32_t columns = 0, rows = 0;  // odd
 };
 LevelGrid level_grid(const Shape& shape, uint32_t level);
 
@@ -68,11 +66,10 @@ struct Terrain {
     double finest_error_m = 0;    // greatest distance of a stored height from its source sample
     std::vector<int32_t> heights; // [height, width] row-major, north first; kVoid = no data
 
-    // Error in metres of code c: of a diamond left unsplit, against every source sample it covers, and of all its
-    // descendants. codes[0] = finest_error_m; increasing; [kMustSplit] = infinity.
+    // error_m[codes[t][i]] bounds the vertical distance in metres between a diamond left unsplit and every source sample that it covers,
+    // and the same of all its descendants. error_m[0] = finest_error_m; increasing; error_m[kMustSplit] = infinity.
     std::array<float, 256> error_m{};
-    // codes[level][(y >> level) * columns + (x >> level)], for virtual vertex (x, y) with x and y multiples of 2^level, not
-    // both of 2^(level+1) unless level is the last. Other entries are 0 and mean nothing.
+    // One grid a level, root_log2 of them. Entries whose two grid coordinates are both even belong to a coarser level and are 0.
     std::vector<std::vector<uint8_t>> codes;
 
     ImageRgb8 texture;            // over the whole raster; may be empty

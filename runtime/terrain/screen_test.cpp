@@ -1,0 +1,32 @@
+#include "runtime/terrain/screen_test.h"
+
+namespace overlook::terrain {
+namespace {
+// What the arithmetic of the bound may round away, many times over.
+constexpr double kRoundingAllowance = 1 + 1e-9;
+}  // namespace
+
+ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px)
+    : bounds_(bounds), last_column_(terrain.shape.width - 1), last_row_(terrain.shape.height - 1), eye_z_(camera.position_m.z), near_m_(camera.near_m) {
+    for (uint32_t x = 0; x <= last_column_; ++x) column_x_.push_back(x * terrain.frame.metres_per_column - camera.position_m.x);
+    for (uint32_t y = 0; y <= last_row_; ++y) row_y_.push_back(-(y * terrain.frame.metres_per_row) - camera.position_m.y);
+
+    view::Axes axes = view::axes_of(camera);
+    auto direction = [](const glm::dvec3& v) { return Direction{v.x, v.y, v.z}; };
+    right_ = direction(axes.right), up_ = direction(axes.up), forward_ = direction(axes.forward);
+    double focal = view::focal_px(camera), tangent_x = camera.width_px / (2 * focal), tangent_y = camera.height_px / (2 * focal);
+    planes_[0] = direction(axes.forward * tangent_x + axes.right);
+    planes_[1] = direction(axes.forward * tangent_x - axes.right);
+    planes_[2] = direction(axes.forward * tangent_y + axes.up);
+    planes_[3] = direction(axes.forward * tangent_y - axes.up);
+    planes_[4] = forward_;
+    plane_offsets_[4] = near_m_;
+
+    double corner = view::corner_secant(camera);
+    corner_squared_ = corner * corner, corner_cosine_ = 1 / corner;
+    focal_squared_ = focal * focal, tolerance_squared_ = error_px * error_px;
+    for (int code = 0; code < 256; ++code) error_m_[code] = double(terrain.error_m[size_t(code)]) * kRoundingAllowance;
+    finest_error_is_zero_ = terrain.error_m[0] == 0;
+}
+
+}  // namespace overlook::terrain

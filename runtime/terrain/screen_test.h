@@ -1,0 +1,122 @@
+// Is a split vertex in view, and is the error of leaving it unsplit too large on the screen?
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "formats/terrain_diamond.h"
+#include "runtime/terrain/height_bounds.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::terrain {
+
+enum class Verdict { leave_out, keep, split };
+
+struct Interval {
+    double low, high;
+};
+
+// An axis-aligned box relative to the eye, metres.
+struct Box {
+    Interval x, y, z;
+};
+
+// One camera and one tolerance against one terrain. The box of a split vertex reaches 3s round the middle of a square and 2s round that of an edge (s = 2^level
+// cells): so it holds its own diamond and the boxes of all that it splits into, and every figure taken from it by interval arithmetic can
+// only get milder on the way down.
+class ScreenTest {
+  public:
+    static constexpr uint8_t kAllPlanes = 31;  // left, right, bottom, top, near
+
+    ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px);
+
+    // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared (px^2) to the bound
+    // of what is kept.
+    Verdict operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t& planes, double& predicted_squared) const {
+        Box box;
+        if (!box_of(v, level, is_square, box)) return Verdict::leave_out;
+        if (planes != 0 && !is_in_view(box, planes)) return Verdict::leave_out;
+        if (code == 0 && finest_error_is_zero_) return Verdict::keep;
+        if (code != kMustSplit && keeps_tolerance(box, error_m_[code], tolerance_squared_, predicted_squared)) return Verdict::keep;
+        // What an edge of level 0 splits into is the finest there is, whatever was asked.
+        if (level == 0 && !is_square && !finest_error_is_zero_) keeps_tolerance(box, error_m_[0], kNoLimit, predicted_squared);
+        return Verdict::split;
+    }
+
+  private:
+    bool box_of(GridPoint v, uint32_t level, bool is_square, Box& box) const {
+        uint32_t s = 1u << level, reach = is_square ? 3 * s : 2 * s;
+        HeightRange range;
+        if (is_square) {
+            range = bounds_.of_square(v.x, v.y, level);
+        } else {
+            bool is_horizontal = (v.x >> level) & 1;  // two squares share the edge; the border of the grid has one twice
+            GridPoint before = is_horizontal ? GridPoint{v.x, v.y >= s ? v.y - s : v.y + s} : GridPoint{v.x >= s ? v.x - s : v.x + s, v.y};
+            GridPoint after = is_horizontal ? GridPoint{v.x, v.y + s} : GridPoint{v.x + s, v.y};
+            HeightRange a = bounds_.of_square(before.x, before.y, level), b = bounds_.of_square(after.x, after.y, level);
+            range = {std::max(a.low_m, b.low_m), std::min(a.high_m, b.high_m)};
+        }
+        if (range.is_empty()) return false;
+        auto inside = [](uint32_t at, uint32_t last) { return at < last ? at : last; };
+        box.x = {column_x_[v.x >= reach ? inside(v.x - reach, last_column_) : 0], column_x_[inside(v.x + reach, last_column_)]};
+        box.y = {row_y_[inside(v.y + reach, last_row_)], row_y_[v.y >= reach ? inside(v.y - reach, last_row_) : 0]};
+        box.z = {double(range.low_m) - eye_z_, double(range.high_m) - eye_z_};
+        return true;
+    }
+
+    // A direction with, for each axis, which end of an interval lies further along it.
+    struct Direction {
+        double x = 0, y = 0, z = 0;
+        double greatest(const Box& b) const {
+            return (x > 0 ? b.x.high : b.x.low) * x + (y > 0 ? b.y.high : b.y.low) * y + (z > 0 ? b.z.high : b.z.low) * z;
+        }
+        double least(const Box& b) const {
+            return (x > 0 ? b.x.low : b.x.high) * x + (y > 0 ? b.y.low : b.y.high) * y + (z > 0 ? b.z.low : b.z.high) * z;
+        }
+    };
+
+    bool is_in_view(const Box& box, uint8_t& planes) const {
+        for (uint32_t i = 0; i < 5; ++i) {
+            if (!(planes & (1u << i))) continue;
+            if (planes_[i].greatest(box) < plane_offsets_[i]) return false;
+            if (planes_[i].least(box) >= plane_offsets_[i]) planes = uint8_t(planes & ~(1u << i));
+        }
+        return true;
+    }
+
+    // The bound of view/pixel_error.h, squared so as to need no root; raises predicted_squared where it is kept.
+    bool keeps_tolerance(const Box& box, double error_m, double tolerance_squared, double& predicted_squared) const {
+        double depth = std::max(forward_.least(box), near_m_);
+        auto outside = [](Interval i) { return std::max(std::max(i.low, -i.high), 0.0); };
+        double dx = outside(box.x), dy = outside(box.y), dz = outside(box.z), distance_squared = dx * dx + dy * dy + dz * dz;
+        if (distance_squared > depth * depth * corner_squared_) depth = std::max(depth, std::sqrt(distance_squared) * corner_cosine_);
+        if (depth <= error_m) return false;
+
+        auto widest = [&](const Direction& d) { return std::max(d.greatest(box), -d.least(box)); };
+        double side_x = widest(right_), side_y = widest(up_);
+        double depth_squared = depth * depth;
+        double secant_squared = std::min(corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y);
+        double numerator = focal_squared_ * error_m * error_m * secant_squared;  // bound^2 = numerator / denominator
+        double denominator = depth_squared * (depth - error_m) * (depth - error_m);
+        if (numerator > tolerance_squared * denominator) return false;
+        if (numerator > predicted_squared * denominator) predicted_squared = numerator / denominator;
+        return true;
+    }
+
+    static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+    const HeightBounds& bounds_;
+    std::vector<double> column_x_, row_y_;  // of every raster column and row, relative to the eye
+    uint32_t last_column_, last_row_;
+    double eye_z_;
+    Direction planes_[5];
+    double plane_offsets_[5] = {};
+    Direction right_, up_, forward_;
+    double near_m_, corner_squared_, corner_cosine_, focal_squared_, tolerance_squared_;
+    double error_m_[256];
+    bool finest_error_is_zero_;
+};
+
+}  // namespace overlook::terrain
