@@ -80,4 +80,17 @@ struct Terrain {
     }
 };
 
+// Adds the terrain's sections to a baked file: TINF, TDIR, TBLK and, if there is a texture, TTEX. Same terrain, same bytes.
+Result<void> write(container::Writer& writer, const Terrain& terrain);
+
+// Reads a baked terrain whole. The file may be hostile; every failure is Exit::bad_input and names file, rule and place:
+// "valley.ovl: T9: block 17: its bytes do not match their checksum; was the file damaged?". Memory: O(samples), of which
+// a file must hold at least one byte for 512 (32 a block in its directory) before any is taken.
+Result<Terrain> read(const std::string& path);
+Result<Terrain> read(const container::Reader& file);
+
+// What each rule of the terrain's sections says, as container::rule_text.
+std::string_view rule_text(int rule);
+int rule_count();
+
 }  // namespace overlook::terrain

@@ -1,0 +1,108 @@
+#include "runtime/command/command.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <new>
+
+#include "formats/parallel.h"
+#include "runtime/command/options.h"
+#include "runtime/command/signals.h"
+
+namespace overlook::command {
+namespace {
+
+// Names come from outside; none of them breaks the rule of one line a message.
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    }
+    return text;
+}
+
+void say(const std::string& line) {
+    std::string whole = one_line(line) + "\n";
+    std::fputs(whole.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+// The command as the user typed it: "bake-lod terrain".
+std::string full_name(const CLI::App& app, const char* typed) {
+    std::string name = app.get_name();
+    if (name.empty() && typed != nullptr) name = std::string(typed).substr(std::string(typed).rfind('/') + 1);
+    for (const CLI::App* chosen : app.get_subcommands()) name += " " + chosen->get_name();
+    return name;
+}
+
+// A result that did not reach its reader is not a result.
+int flush_output(const std::string& name, int exit_code) {
+    std::cout.flush();
+    errno = 0;
+    bool is_whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+    if (is_whole) return exit_code;
+    std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+    return fail(name, Error{Exit::cannot_write, "standard output: cannot write" + reason});
+}
+
+std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error) {
+    std::string text = error.what();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
+    std::vector<std::string> extras = app.remaining(true);
+    if (extras.empty()) return text;
+    std::string near = nearest_name(app, extras.front());
+    text = "\"" + extras.front() + "\" was not expected";
+    return near.empty() ? text + "; --help lists what is" : text + "; did you mean " + near + "?";
+}
+
+// Returns the exit code of a command line that is not to be run.
+int answer_parse_error(CLI::App& app, const std::string& name, const CLI::ParseError& error) {
+    if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
+        std::cout << app.help();
+        return flush_output(name, int(Exit::done));
+    }
+    if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
+        std::cout << error.what() << "\n";
+        return flush_output(name, int(Exit::done));
+    }
+    bool file_is_missing = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
+    return fail(name, Error{file_is_missing ? Exit::bad_input : Exit::bad_command, parse_error_text(app, error)});
+}
+
+}  // namespace
+
+int run(CLI::App& app, Common& common, int argc, char** argv, const std::function<int()>& body) {
+    install_signal_handlers();
+    std::string name = full_name(app, argc > 0 ? argv[0] : nullptr);
+    try {
+        if (app.get_version_ptr() == nullptr) app.set_version_flag("--version", version_line());
+        app.parse(argc, argv);
+        name = full_name(app, argv[0]);
+        set_thread_count(common.threads);
+        return flush_output(name, body());
+    } catch (const CLI::ParseError& error) {
+        return answer_parse_error(app, full_name(app, argc > 0 ? argv[0] : nullptr), error);
+    } catch (const std::bad_alloc&) {
+        return fail(name, Error{Exit::impossible, "out of memory"});
+    } catch (const std::exception& error) {
+        return fail(name, Error{Exit::our_bug, std::string("internal error: ") + error.what()});
+    } catch (...) {
+        return fail(name, Error{Exit::our_bug, "internal error: an exception of an unknown kind"});
+    }
+}
+
+int fail(const std::string& name, const Error& error) {
+    say(name + ": " + error.message);
+    return int(error.exit);
+}
+
+void note(const Common& common, const std::string& line) {
+    if (!common.quiet) say(line);
+}
+
+void detail(const Common& common, const std::string& line) {
+    if (common.verbose && !common.quiet) say(line);
+}
+
+}  // namespace overlook::command

@@ -1,0 +1,63 @@
+// An OpenGL 4.5 core context without a window, and what is known of the renderer behind the current context.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "formats/result.h"
+
+namespace overlook::gl {
+
+struct Renderer {
+    std::string name;         // GL_RENDERER, "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string version;      // GL_VERSION
+    bool is_software = false; // drawn by the processor: its times say nothing about a graphics card
+};
+
+// Counts the errors that OpenGL reports about the current context (by its debug output and by glGetError), from its
+// making until its end. The context must stay current, and the counter alive, for as long as anything is drawn.
+class ErrorCounter {
+  public:
+    ErrorCounter();
+    // Errors so far; also empties OpenGL's own error flags.
+    uint64_t count();
+    // The first error's text, empty if there was none.
+    const std::string& first() const { return log_->first; }
+
+  private:
+    struct Log {
+        uint64_t count = 0;
+        std::string first;
+    };
+    static void receive(unsigned source, unsigned type, unsigned id, unsigned severity, int length, const char* text,
+                        const void* log);
+    std::unique_ptr<Log> log_;
+};
+
+// Describes the current context. Fails with Exit::impossible if it is older than OpenGL 4.5:
+// "OpenGL 4.5 is needed, this renderer has 3.1: softpipe".
+Result<Renderer> describe_current_context();
+
+// A context that draws into framebuffer objects only. Made by EGL without a surface; where that gives no hardware or is
+// refused, on the first EGL device that gives a context. LIBGL_ALWAYS_SOFTWARE=1 (Mesa's own switch) keeps it from
+// looking for hardware. It is made current in the calling thread, and only there may it be used.
+class Context {
+  public:
+    // Fails with Exit::impossible: "no OpenGL 4.5 without a window here: EGL is not installed (libEGL.so.1)".
+    static Result<Context> headless();
+    Context(Context&& other) noexcept;
+    Context& operator=(Context&& other) noexcept;
+    ~Context();
+
+    const Renderer& renderer() const { return renderer_; }
+
+  private:
+    Context() = default;
+    static Result<Context> on_display(void* display);
+    void* display_ = nullptr;
+    void* context_ = nullptr;
+    Renderer renderer_;
+};
+
+}  // namespace overlook::gl

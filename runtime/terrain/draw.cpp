@@ -1,0 +1,200 @@
+#include "runtime/terrain/draw.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "runtime/terrain/draw_shaders.h"
+
+namespace overlook::terrain {
+namespace {
+
+// Heights above the middle of their range, so that a float holds them to a ten-millionth of the range.
+struct HeightsAboveBase {
+    double base_m = 0, lowest_m = 0, highest_m = 0;
+    std::vector<float> samples;
+};
+
+HeightsAboveBase heights_above_base(const Terrain& terrain) {
+    int32_t lowest = std::numeric_limits<int32_t>::max(), highest = kVoid;
+    for (int32_t height : terrain.heights) {
+        if (height != kVoid) lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+    }
+    if (highest == kVoid) lowest = highest = 0;
+
+    int64_t base = (int64_t(lowest) + int64_t(highest)) / 2;
+    HeightsAboveBase heights;
+    heights.base_m = terrain.height_offset_m + terrain.height_step_m * double(base);
+    heights.lowest_m = terrain.height_step_m * double(lowest - base);
+    heights.highest_m = terrain.height_step_m * double(highest - base);
+    heights.samples.reserve(terrain.heights.size());
+    for (int32_t height : terrain.heights) {
+        heights.samples.push_back(height == kVoid ? 0.0f : float(terrain.height_step_m * double(height - base)));
+    }
+    return heights;
+}
+
+Result<gl::Texture> make_texture(const ImageRgb8& image) {
+    GLint most_px = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+    if (std::max(image.width, image.height) > uint32_t(most_px)) {
+        return impossible("the texture of {} x {} pixels is too large for this renderer ({} at most)", image.width, image.height,
+                          most_px);
+    }
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &id);
+    gl::Texture texture(id);
+    GLsizei levels = 1 + GLsizei(std::log2(std::max(image.width, image.height)));
+    glTextureStorage2D(id, levels, GL_SRGB8_ALPHA8, GLsizei(image.width), GLsizei(image.height));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id, 0, 0, 0, GLsizei(image.width), GLsizei(image.height), GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
+    glGenerateTextureMipmap(id);
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+        GLfloat most = 1;
+        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+        glTextureParameterf(id, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
+    }
+    return texture;
+}
+
+}  // namespace
+
+Result<Drawing> Drawing::make(const Terrain& terrain) {
+    assert(terrain.heights.size() == size_t(terrain.shape.width) * terrain.shape.height && !terrain.heights.empty());
+    if (terrain.heights.size() > std::numeric_limits<uint32_t>::max()) {
+        return impossible("a raster of {} x {} samples is too large to draw at once", terrain.shape.width, terrain.shape.height);
+    }
+    Drawing made;
+    made.width_ = terrain.shape.width;
+    made.height_ = terrain.shape.height;
+    made.metres_per_column_ = terrain.frame.metres_per_column;
+    made.metres_per_row_ = terrain.frame.metres_per_row;
+
+    HeightsAboveBase heights = heights_above_base(terrain);
+    made.base_m_ = heights.base_m;
+    made.lowest_m_ = heights.lowest_m;
+    made.highest_m_ = heights.highest_m;
+    made.heights_ = gl::make_buffer(std::as_bytes(std::span(heights.samples)));
+    if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain does not fit into the renderer's memory");
+
+    made.vertices_ = gl::make_vertex_array();
+    made.nothing_ = gl::make_vertex_array();
+    GLuint vertices = made.vertices_.id();
+    glVertexArrayVertexBuffer(vertices, 0, made.heights_.id(), 0, sizeof(float));
+    glVertexArrayAttribFormat(vertices, 0, 1, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(vertices, 0, 0);
+    glEnableVertexArrayAttrib(vertices, 0);
+    glVertexArrayElementBuffer(vertices, made.indices_.id());
+
+    made.has_texture_ = !terrain.texture.pixels.empty();
+    if (made.has_texture_) {
+        Result<gl::Texture> texture = make_texture(terrain.texture);
+        if (!texture) return tl::unexpected(texture.error());
+        made.texture_ = std::move(*texture);
+    }
+    if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
+    return made;
+}
+
+Result<void> Drawing::make_programs() {
+    const std::string ground_source = std::string(shaders::kAir) + shaders::kTerrainFragment;
+    const std::string shaded_source = ground_source + shaders::kShadedMain;
+    const std::string wireframe_source = ground_source + shaders::kWireframeMain;
+    const std::string sky_source = std::string(shaders::kAir) + shaders::kSkyFragment;
+    auto shaded = gl::Program::make("terrain", {{GL_VERTEX_SHADER, shaders::kTerrainVertex}, {GL_FRAGMENT_SHADER, shaded_source}});
+    if (!shaded) return tl::unexpected(shaded.error());
+    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, shaders::kTerrainVertex},
+                                                     {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},
+                                                     {GL_FRAGMENT_SHADER, wireframe_source}});
+    if (!wireframe) return tl::unexpected(wireframe.error());
+    auto sky = gl::Program::make("sky", {{GL_VERTEX_SHADER, shaders::kSkyVertex}, {GL_FRAGMENT_SHADER, sky_source}});
+    if (!sky) return tl::unexpected(sky.error());
+    shaded_ = std::move(*shaded);
+    wireframe_ = std::move(*wireframe);
+    sky_ = std::move(*sky);
+    return {};
+}
+
+void Drawing::set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
+    constexpr double kFarthestCell = 1 << 30;
+    glm::dvec3 place_m = camera.position_m - options.origin_m;
+    double column = place_m.x / metres_per_column_, row = -place_m.y / metres_per_row_;
+    double whole_column = std::clamp(std::floor(column), -kFarthestCell, kFarthestCell);
+    double whole_row = std::clamp(std::floor(row), -kFarthestCell, kFarthestCell);
+    double width_m = metres_per_column_ * width_, height_m = metres_per_row_ * height_;
+
+    glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
+    glUniform1ui(program.at("width"), width_);
+    glUniform2i(program.at("camera_sample"), GLint(whole_column), GLint(whole_row));
+    glUniform2f(program.at("camera_rest"), float(column - whole_column), float(row - whole_row));
+    glUniform2f(program.at("metres_per_cell"), float(metres_per_column_), float(-metres_per_row_));
+    glUniform1f(program.at("camera_height_m"), float(place_m.z - base_m_));
+    glUniformMatrix4fv(program.at("clip_from_relative"), 1, GL_FALSE, glm::value_ptr(clip_from_relative));
+    glUniform2f(program.at("raster_size"), float(width_), float(height_));
+    glUniform1i(program.at("has_texture"), has_texture_ ? 1 : 0);
+    glUniform1i(program.at("colours"), 0);
+    glUniform2f(program.at("height_range_m"), float(lowest_m_), float(highest_m_));
+    glUniform1f(program.at("haze_per_m"), float(0.55 * options.haze / std::hypot(width_m, height_m)));
+    glUniform1f(program.at("line_px"), float(options.line_px));
+}
+
+void Drawing::draw_sky(const view::Camera& camera) const {
+    glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
+    double focal = view::focal_px(camera);
+    sky_.use();
+    glUniformMatrix3fv(sky_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
+    glUniform2f(sky_.at("tangents"), float(camera.width_px / (2 * focal)), float(camera.height_px / (2 * focal)));
+    glBindVertexArray(nothing_.id());
+    glDepthMask(GL_FALSE);
+    glDisable(GL_DEPTH_TEST);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+}
+
+void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
+    program.use();
+    set_camera(program, camera, options);
+    glBindVertexArray(vertices_.id());
+    if (has_texture_) glBindTextureUnit(0, texture_.id());
+    glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options) {
+    // A draw call counts in 31 bits; a cut of so many triangles would be hours of work anyway.
+    size_t most_indices = size_t(std::numeric_limits<GLsizei>::max()) / 3 * 3;
+    std::span<const uint32_t> indices = std::span(cut.indices).first(std::min(cut.indices.size(), most_indices));
+    indices_.fill(std::as_bytes(indices));
+    index_count_ = GLsizei(indices.size());
+    uploaded_bytes_ = indices.size_bytes();
+
+    target.bind();
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glDisable(GL_CULL_FACE);
+    draw_sky(camera);
+
+    GLint half_px = GLint(target.width_px() / 2);
+    if (options.look == Look::split) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(0, 0, half_px, GLsizei(target.height_px()));
+        draw_cut(wireframe_, camera, options);
+        glScissor(half_px, 0, GLsizei(target.width_px()) - half_px, GLsizei(target.height_px()));
+        draw_cut(shaded_, camera, options);
+        glDisable(GL_SCISSOR_TEST);
+    } else {
+        draw_cut(options.look == Look::wireframe ? wireframe_ : shaded_, camera, options);
+    }
+    target.resolve();
+}
+
+}  // namespace overlook::terrain

@@ -1,0 +1,66 @@
+// Drawing a cut of a terrain with OpenGL; which triangles, runtime/terrain/refine.h decides.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "formats/terrain.h"
+#include "runtime/gl/objects.h"
+#include "runtime/gl/program.h"
+#include "runtime/gl/target.h"
+#include "runtime/terrain/refine.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::terrain {
+
+enum class Look {
+    shaded,      // the texture as it is, or plain shading by slope where there is none
+    wireframe,   // the triangles' edges over a pale picture
+    split,       // left half wireframe, right half shaded
+};
+
+struct DrawOptions {
+    Look look = Look::shaded;
+    double haze = 1;            // how much the air hides far things: 0 = not at all, 1 = a fair day
+    double line_px = 1;         // width of the wireframe's lines
+    glm::dvec3 origin_m{0};     // where the terrain's own origin lies in the world that the camera is in
+};
+
+// A terrain on the graphics card: 4 bytes a sample and its texture. The terrain itself may go afterwards.
+// It is drawn relative to the camera (whole cells subtracted as integers, the rest in double), so that the picture is
+// the same however far from the world's origin the terrain lies.
+class Drawing {
+  public:
+    // Fails with Exit::impossible if the texture or the raster is too large for the renderer.
+    static Result<Drawing> make(const Terrain& terrain);
+
+    // Draws sky and terrain into `target` and resolves it. Indices of `cut` refer to the terrain given to make().
+    // The same arguments give the same picture.
+    void draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options);
+
+    // What the last draw() sent to the card.
+    uint64_t uploaded_bytes() const { return uploaded_bytes_; }
+
+  private:
+    Drawing() = default;
+    Result<void> make_programs();
+    void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
+    void draw_sky(const view::Camera& camera) const;
+    void draw_cut(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
+
+    uint32_t width_ = 0, height_ = 0;
+    double metres_per_column_ = 1, metres_per_row_ = 1;
+    double base_m_ = 0;         // heights on the card are above this one
+    double lowest_m_ = 0;       // above base_m_
+    double highest_m_ = 0;      // above base_m_
+    bool has_texture_ = false;
+    gl::Buffer heights_;
+    gl::VertexArray vertices_, nothing_;
+    gl::StreamBuffer indices_;
+    GLsizei index_count_ = 0;
+    gl::Texture texture_;
+    gl::Program shaded_, wireframe_, sky_;
+    uint64_t uploaded_bytes_ = 0;
+};
+
+}  // namespace overlook::terrain

@@ -1,0 +1,157 @@
+// The shaders of draw.cpp; fragment shaders are put together from kAir and what follows it. Colours are mixed in linear light and written sRGB-encoded.
+#pragma once
+
+namespace overlook::terrain::shaders {
+
+// A vertex is a raster sample: its number says where it lies, its one attribute how high.
+inline constexpr char kTerrainVertex[] = R"(#version 450 core
+layout(location = 0) in float height_m;        // above the terrain's base
+uniform uint width;
+uniform ivec2 camera_sample;                   // whole cells of the camera's place, and what is left of it
+uniform vec2 camera_rest;
+uniform vec2 metres_per_cell;                  // y negative: rows go down the raster
+uniform float camera_height_m;                 // above the terrain's base
+uniform mat4 clip_from_relative;
+uniform vec2 raster_size;
+out Surface {
+    vec3 relative_m;
+    vec2 place;                                // 0..1 over the raster
+    float height_m;
+} surface;
+
+void main() {
+    uint id = uint(gl_VertexID);
+    ivec2 cell = ivec2(id % width, id / width);
+    vec2 cells_away = vec2(cell - camera_sample) - camera_rest;
+    surface.relative_m = vec3(cells_away * metres_per_cell, height_m - camera_height_m);
+    surface.place = (vec2(cell) + 0.5) / raster_size;
+    surface.height_m = height_m;
+    gl_Position = clip_from_relative * vec4(surface.relative_m, 1.0);
+}
+)";
+
+// Gives every corner of a triangle its own coordinate, 1 there and 0 on the side opposite.
+inline constexpr char kWireframeGeometry[] = R"(#version 450 core
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+in Surface {
+    vec3 relative_m;
+    vec2 place;
+    float height_m;
+} corner[];
+out Surface {
+    vec3 relative_m;
+    vec2 place;
+    float height_m;
+} surface;
+out vec3 corners;
+
+void main() {
+    for (int i = 0; i < 3; ++i) {
+        surface.relative_m = corner[i].relative_m;
+        surface.place = corner[i].place;
+        surface.height_m = corner[i].height_m;
+        corners = vec3(i == 0, i == 1, i == 2);
+        gl_Position = gl_in[i].gl_Position;
+        EmitVertex();
+    }
+    EndPrimitive();
+}
+)";
+
+inline constexpr char kAir[] = R"(#version 450 core
+vec3 encoded(vec3 linear) {
+    vec3 low = linear * 12.92;
+    vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
+    return mix(high, low, lessThanEqual(linear, vec3(0.0031308)));
+}
+
+// The sky, and the air before far things, by the sine of the altitude one looks at.
+vec3 air_colour(float up) {
+    vec3 horizon = vec3(0.66, 0.74, 0.82);
+    vec3 middle = vec3(0.26, 0.44, 0.70);
+    vec3 zenith = vec3(0.07, 0.17, 0.42);
+    vec3 nadir = vec3(0.36, 0.43, 0.50);
+    if (up < 0.0) return mix(horizon, nadir, 1.0 - exp(up * 3.0));
+    vec3 low = mix(horizon, middle, 1.0 - exp(-up * 6.0));
+    return mix(low, zenith, smoothstep(0.15, 0.95, up));
+}
+)";
+
+inline constexpr char kTerrainFragment[] = R"(
+in Surface {
+    vec3 relative_m;
+    vec2 place;
+    float height_m;
+} surface;
+uniform bool has_texture;
+uniform sampler2D colours;
+uniform float haze_per_m;
+uniform vec2 height_range_m;
+out vec4 colour;
+
+vec3 slope_shading() {
+    vec3 normal = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
+    if (normal.z < 0.0) normal = -normal;
+    float light = 0.22 + 0.78 * max(0.0, dot(normal, normalize(vec3(-0.55, 0.55, 0.62))));
+    float share = clamp((surface.height_m - height_range_m.x) / max(height_range_m.y - height_range_m.x, 1e-6), 0.0, 1.0);
+    return light * mix(vec3(0.33, 0.36, 0.24), vec3(0.70, 0.66, 0.60), share);
+}
+
+vec3 ground_colour() {
+    return has_texture ? texture(colours, surface.place).rgb : slope_shading();
+}
+
+vec3 behind_air(vec3 ground) {
+    float distance_m = length(surface.relative_m);
+    vec3 air = air_colour(min(surface.relative_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
+    return mix(air, ground, exp(-distance_m * haze_per_m));
+}
+)";
+
+inline constexpr char kShadedMain[] = R"(
+void main() {
+    colour = vec4(encoded(behind_air(ground_colour())), 1.0);
+}
+)";
+
+// Lines of even width on the screen, from how fast a corner's coordinate changes from pixel to pixel.
+inline constexpr char kWireframeMain[] = R"(
+in vec3 corners;
+uniform float line_px;
+void main() {
+    vec3 per_px = max(fwidth(corners), vec3(1e-9));
+    vec3 away_px = corners / per_px;
+    float nearest_px = min(away_px.x, min(away_px.y, away_px.z));
+    float line = 1.0 - smoothstep(0.5 * line_px - 0.5, 0.5 * line_px + 0.5, nearest_px);
+    float grey = dot(ground_colour(), vec3(0.2126, 0.7152, 0.0722));
+    vec3 paper = mix(vec3(grey), ground_colour(), 0.35) * 0.35 + vec3(0.60, 0.61, 0.60);
+    vec3 ink = vec3(0.015, 0.05, 0.11);
+    colour = vec4(encoded(behind_air(mix(paper, ink, 0.85 * line))), 1.0);
+}
+)";
+
+inline constexpr char kSkyVertex[] = R"(#version 450 core
+uniform mat3 world_from_eye;
+uniform vec2 tangents;
+out vec3 direction;
+void main() {
+    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    direction = world_from_eye * vec3(corner * tangents, -1.0);
+    gl_Position = vec4(corner, 0.0, 1.0);
+}
+)";
+
+inline constexpr char kSkyFragment[] = R"(
+in vec3 direction;
+out vec4 colour;
+
+void main() {
+    vec3 air = air_colour(normalize(direction).z);
+    // Half a step of noise, the same in every frame, keeps the sky from showing bands.
+    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+    colour = vec4(encoded(air) + noise / 255.0, 1.0);
+}
+)";
+
+}  // namespace overlook::terrain::shaders
