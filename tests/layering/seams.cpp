@@ -16,7 +16,7 @@ std::span<const Seam> seams() {
         {"zstd", {"zstd.h"}, {"formats/compression.cpp"}},
         {"libspng", {"spng.h"}, {"runtime/gl/png.cpp"}},
         {"GLFW", {"GLFW/"}, {"runtime/gl/window.cpp"}},
-        {"EGL", {"EGL/", "epoxy/egl.h"}, {"runtime/gl/headless.cpp"}},
+        {"EGL", {"EGL/", "epoxy/egl.h"}, {"runtime/gl/context.cpp"}},
         {"Dear ImGui", {"imgui"}, {"runtime/player/overlay.cpp"}},
         {"xxHash", {"xxhash.h"}, {}, true},
         {"nlohmann-json", {"nlohmann/"}, {}, true},
