@@ -1,6 +1,7 @@
 # Sourced by the pipelines: numbered steps with their times, the shared set-up and build.
 # The pipeline sets step_count, and dry_run=1 to have its steps only said.
 set -euo pipefail
+: "${step_count:=0}"
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 pipeline=$(basename "$0")
