@@ -66,9 +66,13 @@ bool is_deciding(Layer layer) {
     return layer == Layer::view || layer == Layer::stream || layer == Layer::deciding || layer == Layer::formats;
 }
 bool is_lean(Layer layer) { return is_deciding(layer) || draws(layer) || layer == Layer::command; }
-bool is_library(const std::string& path, Layer layer) {
-    if (layer == Layer::command || layer == Layer::mouth || layer == Layer::measure || layer == Layer::sample) return false;
-    return !path.ends_with("/main.cpp");
+// Rule 5: commands talk, and only their mains and what they share end a process.
+bool may_print(Layer layer) {
+    using enum Layer;
+    return layer == command || layer == mouth || layer == measure || layer == player || layer == sample;
+}
+bool may_end_the_process(const std::string& path, Layer layer) {
+    return layer == Layer::command || layer == Layer::sample || (may_print(layer) && path.ends_with("/main.cpp"));
 }
 
 bool begins_with_any(std::string_view text, std::span<const std::string_view> prefixes) {
@@ -133,15 +137,15 @@ void check_seams(const Source& source, std::vector<Finding>& found) {
 
 void check_words(const Source& source, std::vector<Finding>& found) {
     static const std::set<std::string> kStreams = {"cout", "cerr", "clog", "wcout", "wcerr", "stdout", "stderr"};
-    static const std::set<std::string> kCalls = {"printf", "vprintf", "puts", "putchar", "perror", "exit", "_exit", "_Exit",
-                                                 "quick_exit", "abort", "terminate", "raise"};
-    if (!is_library(source.path, layer_of(source.path))) return;
+    static const std::set<std::string> kPrints = {"printf", "vprintf", "puts", "putchar", "perror"};
+    static const std::set<std::string> kEnds = {"exit", "_exit", "_Exit", "quick_exit", "abort", "terminate", "raise"};
+    Layer layer = layer_of(source.path);
     for (const Word& word : source.words) {
         if (word.is_member || (!word.scope.empty() && word.scope != "std" && word.scope != "fmt")) continue;
-        bool is_stream = kStreams.contains(word.text);
-        bool is_call = word.is_call && kCalls.contains(word.text);
         bool is_fmt_print = word.is_call && word.scope == "fmt" && word.text == "print";
-        if (is_stream || is_call || is_fmt_print) {
+        bool prints = kStreams.contains(word.text) || (word.is_call && kPrints.contains(word.text)) || is_fmt_print;
+        bool ends = word.is_call && kEnds.contains(word.text);
+        if ((prints && !may_print(layer)) || (ends && !may_end_the_process(source.path, layer))) {
             found.push_back({5, source.path, word.line, "uses " + word.text + "; a library returns what went wrong"});
         }
     }
