@@ -19,6 +19,7 @@ function(overlook_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   add_library(overlook::${name} ALIAS ${name})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME overlook_${name})  # liboverlook_view.a among all that is installed
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/overlook>)
   target_compile_features(${name} PUBLIC cxx_std_20)

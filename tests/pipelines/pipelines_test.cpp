@@ -1,0 +1,66 @@
+// The pipelines themselves: what they say, and what they refuse.
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/shell.h"
+
+namespace overlook {
+namespace {
+
+const std::string kRoot = OVERLOOK_SOURCE_DIR;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Pipelines, SayTheirStepsInOrderWithoutTakingThem) {
+    auto quickstart = shell::run("env -u DISPLAY -u WAYLAND_DISPLAY pipelines/quickstart --dry-run", kRoot);
+    EXPECT_EQ(quickstart.exit, 0);
+    size_t install = quickstart.output.find("install what is missing"), build = quickstart.output.find("build");
+    size_t bake = quickstart.output.find("bake it"), draw = quickstart.output.find("draw it");
+    ASSERT_NE(draw, std::string::npos) << quickstart.output;
+    EXPECT_TRUE(install < build && build < bake && bake < draw) << quickstart.output;
+    EXPECT_FALSE(contains(quickstart.output, " failed")) << quickstart.output;
+}
+
+TEST(Pipelines, CountAsManyStepsAsTheySay) {
+    for (const char* pipeline : {"quickstart", "test", "bench", "nightly"}) {
+        auto ran = shell::run(std::string("pipelines/") + pipeline + " --dry-run | tail -n 1", kRoot);
+        int index = 0, count = 0;
+        ASSERT_EQ(std::sscanf(ran.output.c_str(), "== %d/%d", &index, &count), 2) << pipeline << ": " << ran.output;
+        EXPECT_EQ(index, count) << pipeline;
+    }
+}
+
+TEST(Pipelines, RefuseAnOptionTheyDoNotKnow) {
+    for (const char* pipeline : {"quickstart", "bench", "nightly", "set-up"}) {
+        auto ran = shell::run(std::string("pipelines/") + pipeline + " --wrong", kRoot);
+        EXPECT_EQ(ran.exit, 2) << pipeline << ": " << ran.output;
+        EXPECT_TRUE(contains(ran.output, "--wrong is not an option")) << ran.output;
+    }
+}
+
+TEST(Pipelines, FindWhichPackagesAreMissing) {
+    shell::Scratch scratch;
+    shell::write_file(scratch.path() + "/list", "# a comment\nbash\nno-such-package-here  # another\nbas\n");
+    auto ran = shell::run("'" + kRoot + "/pipelines/set-up' --dry-run list", scratch.path());
+    EXPECT_EQ(ran.exit, 0);
+    EXPECT_EQ(ran.output, "set-up: would install 2 packages: bas no-such-package-here\n");
+}
+
+TEST(Pipelines, BareMakeSaysWhatThereIs) {
+    auto ran = shell::run("make -C pipelines", kRoot);
+    EXPECT_EQ(ran.exit, 0) << ran.output;
+    for (const char* target : {"quickstart", "test", "sample", "bake", "bench", "docs", "nightly"}) {
+        EXPECT_TRUE(contains(ran.output, std::string("  ") + target + " ")) << target << "\n" << ran.output;
+    }
+}
+
+TEST(Pipelines, MakeBakeWantsAnElevationModel) {
+    auto none = shell::run("make -C pipelines bake", kRoot);
+    EXPECT_NE(none.exit, 0);
+    EXPECT_TRUE(contains(none.output, "make -C pipelines bake DEM=your.tif")) << none.output;
+    auto missing = shell::run("make -C pipelines bake DEM=no/such.tif", kRoot);
+    EXPECT_NE(missing.exit, 0);
+    EXPECT_TRUE(contains(missing.output, "no/such.tif: cannot be read")) << missing.output;
+}
+
+}  // namespace
+}  // namespace overlook
