@@ -1,0 +1,230 @@
+#include "runtime/terrain/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "formats/parallel.h"
+#include "formats/terrain_diamond.h"
+#include "runtime/view/pixel_error.h"
+#include "tests/tools/synthetic_dem.h"
+#include "tools/bake/terrain.h"
+
+namespace overlook::terrain {
+namespace {
+
+Terrain baked(const dem::Raster& dem) {
+    auto terrain = bake(dem, {}, [](double) {});
+    EXPECT_TRUE(terrain.has_value());
+    return std::move(*terrain);
+}
+
+// Cameras of every kind: above, between and below the hills, far away, looking anywhere, wide and tall.
+view::Camera random_camera(const Terrain& terrain, uint64_t seed) {
+    auto share = [&](uint64_t i) { return test::random_share(77, seed, i); };
+    view::Camera camera;
+    double east_m = terrain.shape.width * terrain.frame.metres_per_column, south_m = terrain.shape.height * terrain.frame.metres_per_row;
+    double reach = seed % 5 == 0 ? 3 : 1;
+    camera.position_m = {east_m * (0.5 + reach * (share(0) - 0.5)), -south_m * (0.5 + reach * (share(1) - 0.5)), 500 + 3000 * share(2) * share(3)};
+    camera.heading_deg = 360 * share(4);
+    camera.pitch_deg = 100 * share(5) - 80;
+    camera.fov_y_deg = 20 + 90 * share(6);
+    camera.width_px = seed % 3 == 0 ? 1600 : 400, camera.height_px = seed % 3 == 1 ? 1200 : 500;
+    return camera;
+}
+
+double random_tolerance_px(uint64_t seed) { return 0.5 * std::pow(16.0, test::random_share(78, seed)); }
+
+// Vertices of a cut that lie in the middle of one of its edges: each is a crack.
+size_t count_t_junctions(const Terrain& terrain, const Cut& cut) {
+    std::set<uint32_t> used(cut.indices.begin(), cut.indices.end());
+    size_t junctions = 0;
+    uint32_t width = terrain.shape.width;
+    for (size_t i = 0; i < cut.indices.size(); ++i) {
+        uint32_t a = cut.indices[i], b = cut.indices[i % 3 == 2 ? i - 2 : i + 1];
+        uint32_t x2 = a % width + b % width, y2 = a / width + b / width;
+        if (x2 % 2 == 0 && y2 % 2 == 0) junctions += used.count(y2 / 2 * width + x2 / 2);
+    }
+    return junctions;
+}
+
+TEST(PixelCut, HasNoCrackForAnyCamera) {
+    Terrain terrain = baked(test::make_hills(129, 129, 3, 0.02));
+    Refiner refiner(terrain);
+    Cut cut;
+    size_t drawn = 0;
+    for (uint64_t seed = 0; seed < 400; ++seed) {
+        refiner.cut_by_pixels(random_camera(terrain, seed), random_tolerance_px(seed), cut);
+        drawn += cut.triangle_count();
+        ASSERT_EQ(count_t_junctions(terrain, cut), 0u) << "camera " << seed;
+    }
+    EXPECT_GT(drawn, 100000u);
+}
+
+TEST(PixelCut, CountsACrackWhereThereIsOne) {
+    Terrain terrain = baked(test::make_hills(17, 17, 3));
+    Cut cut;
+    cut.indices = {0, 2, 34, 1, 18, 35};
+    EXPECT_GT(count_t_junctions(terrain, cut), 0u);
+}
+
+struct Screen {
+    double x, y, depth;
+};
+
+Screen project(const view::Camera& camera, const view::Axes& axes, const glm::dvec3& point) {
+    glm::dvec3 p = point - camera.position_m;
+    double depth = glm::dot(p, axes.forward), focal = view::focal_px(camera);
+    return {focal * glm::dot(p, axes.right) / depth, focal * glm::dot(p, axes.up) / depth, depth};
+}
+
+bool is_in_frame(const view::Camera& camera, const Screen& s) {
+    return s.depth >= camera.near_m && std::abs(s.x) <= camera.width_px / 2.0 && std::abs(s.y) <= camera.height_px / 2.0;
+}
+
+// The greatest distance on the screen between a sample in the frame and the drawn point above or below it, over all triangles of a cut.
+double greatest_displacement_px(const Terrain& terrain, const view::Camera& camera, const Cut& cut) {
+    view::Axes axes = view::axes_of(camera);
+    const Frame& frame = terrain.frame;
+    uint32_t width = terrain.shape.width;
+    double greatest = 0;
+    for (size_t i = 0; i < cut.indices.size(); i += 3) {
+        int64_t x[3], y[3];
+        double z[3];
+        for (size_t k = 0; k < 3; ++k) {
+            x[k] = cut.indices[i + k] % width, y[k] = cut.indices[i + k] / width;
+            z[k] = terrain.height_m(uint32_t(x[k]), uint32_t(y[k]));
+        }
+        double area = double((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]));
+        for (int64_t row = std::min({y[0], y[1], y[2]}); row <= std::max({y[0], y[1], y[2]}); ++row)
+            for (int64_t column = std::min({x[0], x[1], x[2]}); column <= std::max({x[0], x[1], x[2]}); ++column) {
+                auto side = [&](int p, int q) { return double((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p])) / area; };
+                double a = side(1, 2), b = side(2, 0), c = side(0, 1);
+                if (a < 0 || b < 0 || c < 0) continue;
+                double east_m = double(column) * frame.metres_per_column, north_m = -double(row) * frame.metres_per_row;
+                Screen truth = project(camera, axes, {east_m, north_m, terrain.height_m(uint32_t(column), uint32_t(row))});
+                Screen drawn = project(camera, axes, {east_m, north_m, a * z[0] + b * z[1] + c * z[2]});
+                if (!is_in_frame(camera, truth) && !is_in_frame(camera, drawn)) continue;
+                if (truth.depth <= 0 || drawn.depth <= 0) return INFINITY;
+                greatest = std::max(greatest, std::hypot(truth.x - drawn.x, truth.y - drawn.y));
+            }
+    }
+    return greatest;
+}
+
+TEST(PixelCut, DisplacesNothingInTheFrameByMoreThanPredictedAndAsked) {
+    Terrain terrain = baked(test::make_hills(129, 97, 11));
+    Refiner refiner(terrain);
+    Cut cut;
+    double nearest_to_promise = 0;
+    for (uint64_t seed = 0; seed < 400; ++seed) {
+        view::Camera camera = random_camera(terrain, seed);
+        double asked_px = random_tolerance_px(seed);
+        refiner.cut_by_pixels(camera, asked_px, cut);
+        double measured_px = greatest_displacement_px(terrain, camera, cut);
+        ASSERT_LE(measured_px, cut.predicted_error_px) << "camera " << seed;
+        ASSERT_LE(cut.predicted_error_px, asked_px) << "camera " << seed;
+        nearest_to_promise = std::max(nearest_to_promise, measured_px / asked_px);
+    }
+    EXPECT_GT(nearest_to_promise, 0.3);  // or the bound would be honest by being useless
+}
+
+TEST(PixelCut, ShowsEverythingInTheFrame) {
+    Terrain terrain = baked(test::make_hills(65, 65, 12));
+    Refiner refiner(terrain);
+    Cut cut;
+    for (uint64_t seed = 0; seed < 100; ++seed) {
+        view::Camera camera = random_camera(terrain, seed);
+        view::Axes axes = view::axes_of(camera);
+        refiner.cut_by_pixels(camera, 1, cut);
+        std::vector<uint8_t> is_covered(65 * 65, 0);
+        for (size_t i = 0; i < cut.indices.size(); i += 3) {
+            int64_t x[3], y[3];
+            for (size_t k = 0; k < 3; ++k) x[k] = cut.indices[i + k] % 65, y[k] = cut.indices[i + k] / 65;
+            int64_t sign = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]) > 0 ? 1 : -1;
+            for (int64_t row = 0; row < 65; ++row)
+                for (int64_t column = 0; column < 65; ++column) {
+                    auto side = [&](int p, int q) { return sign * ((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p])); };
+                    if (side(0, 1) >= 0 && side(1, 2) >= 0 && side(2, 0) >= 0) is_covered[size_t(row * 65 + column)] = 1;
+                }
+        }
+        for (uint32_t row = 0; row < 65; ++row)
+            for (uint32_t column = 0; column < 65; ++column) {
+                glm::dvec3 p{column * terrain.frame.metres_per_column, -(row * terrain.frame.metres_per_row), terrain.height_m(column, row)};
+                bool is_missing = is_in_frame(camera, project(camera, axes, p)) && !is_covered[row * 65 + column];
+                ASSERT_FALSE(is_missing) << "camera " << seed << " at " << column << ", " << row;
+            }
+    }
+}
+
+TEST(PixelCut, IsTheSameWithAnyThreadCount) {
+    Terrain terrain = baked(test::make_hills(200, 150, 5, 0.05));
+    Refiner refiner(terrain);
+    view::Camera camera = random_camera(terrain, 9);
+    Cut one, more;
+    set_thread_count(1);
+    refiner.cut_by_pixels(camera, 0.7, one);
+    for (unsigned threads : {2u, 7u}) {
+        set_thread_count(threads);
+        refiner.cut_by_pixels(camera, 0.7, more);
+        EXPECT_EQ(one.indices, more.indices);
+        EXPECT_EQ(one.predicted_error_px, more.predicted_error_px);
+        EXPECT_EQ(one.tested_count, more.tested_count);
+    }
+    set_thread_count(0);
+}
+
+TEST(PixelCut, GrowsAsTheToleranceShrinks) {
+    Terrain terrain = baked(test::make_hills(257, 257, 5));
+    Refiner refiner(terrain);
+    view::Camera camera = random_camera(terrain, 4);
+    Cut cut;
+    uint64_t before = 0;
+    for (double error_px : {16.0, 8.0, 4.0, 2.0, 1.0, 0.5}) {
+        refiner.cut_by_pixels(camera, error_px, cut);
+        EXPECT_GE(cut.triangle_count(), before);
+        before = cut.triangle_count();
+    }
+    EXPECT_GT(before, 1000u);
+}
+
+TEST(MetreCut, OfAPlaneIsTwoTrianglesARoot) {
+    dem::Raster plane = test::make_dem(129, 65, [](uint32_t x, uint32_t y) { return float(4 * x + 2 * y); });
+    Terrain terrain = baked(plane);
+    Cut cut;
+    Refiner(terrain).cut_by_metres(0.001, cut);
+    EXPECT_EQ(cut.triangle_count(), 4u);
+    EXPECT_EQ(cut.void_rim_triangle_count, 0u);
+}
+
+TEST(MetreCut, AtZeroReproducesEverySample) {
+    dem::Raster noise = test::make_dem(65, 65, [](uint32_t x, uint32_t y) { return float(test::noise(1, x, y) % 5000); });
+    Terrain terrain = baked(noise);
+    Cut cut;
+    Refiner(terrain).cut_by_metres(0, cut);
+    EXPECT_EQ(cut.triangle_count(), 2u * 64 * 64);
+}
+
+TEST(MetreCut, TurnsItsTrianglesUpwards) {
+    Terrain terrain = baked(test::make_hills(40, 50, 5, 0.05));
+    Cut cut;
+    Refiner(terrain).cut_by_metres(10, cut);
+    for (size_t i = 0; i < cut.indices.size(); i += 3) {
+        double x[3], y[3];
+        for (size_t k = 0; k < 3; ++k) x[k] = cut.indices[i + k] % 40, y[k] = -double(cut.indices[i + k] / 40);
+        EXPECT_GT((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]), 0);
+    }
+}
+
+TEST(MetreCut, OfAllVoidsIsEmpty) {
+    dem::Raster dem = test::make_hills(65, 65, 1);
+    for (size_t i = 1; i < dem.samples.size(); ++i) dem.samples[i] = NAN;
+    Terrain terrain = baked(dem);
+    Cut cut;
+    Refiner(terrain).cut_by_metres(10, cut);
+    EXPECT_EQ(cut.triangle_count(), 0u);
+}
+
+}  // namespace
+}  // namespace overlook::terrain
