@@ -92,6 +92,10 @@ int run(CLI::App& app, Common& common, int argc, char** argv, const std::functio
     }
 }
 
+std::string version() {
+    return OVERLOOK_VERSION;
+}
+
 int fail(const std::string& name, const Error& error) {
     say(name + ": " + error.message);
     return int(error.exit);

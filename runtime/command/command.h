@@ -32,6 +32,9 @@ void add_common(CLI::App& app, Common& common, Uses uses = Uses::none);
 // installs the signal handlers that leave nothing half-written; catches what escapes as our bug (70).
 int run(CLI::App& app, Common& common, int argc, char** argv, const std::function<int()>& body);
 
+// Of Overlook: "0.1.0".
+std::string version();
+
 // Says "NAME: MESSAGE" on stderr and returns the error's exit code.
 int fail(const std::string& name, const Error& error);
 
