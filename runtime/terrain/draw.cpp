@@ -58,11 +58,6 @@ Result<gl::Texture> make_texture(const ImageRgb8& image) {
     glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-        GLfloat most = 1;
-        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-        glTextureParameterf(id, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
-    }
     return texture;
 }
 
@@ -166,6 +161,11 @@ void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, c
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
     if (has_texture_) glBindTextureUnit(0, texture_.id());
+    if (has_texture_ && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+        GLfloat most = 1;
+        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+        glTextureParameterf(texture_.id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(options.anisotropy, 1.0f, most));
+    }
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 

@@ -124,7 +124,7 @@ void main() {
     vec3 away_px = corners / per_px;
     float nearest_px = min(away_px.x, min(away_px.y, away_px.z));
     float line = 1.0 - smoothstep(0.5 * line_px - 0.5, 0.5 * line_px + 0.5, nearest_px);
-    vec3 paper = mix(ground_colour(), vec3(0.85, 0.85, 0.82), 0.62);
+    vec3 paper = mix(ground_colour(), vec3(0.85, 0.85, 0.82), 0.45);
     vec3 ink = vec3(0.015, 0.05, 0.11);
     colour = vec4(encoded(behind_air(mix(paper, ink, 0.85 * line))), 1.0);
 }
