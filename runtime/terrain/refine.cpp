@@ -19,7 +19,7 @@ struct Piece {
     Triangle triangle;
     int level;
     bool is_square;
-    bool stands_on_void_rim;  // its parent covers a void
+    bool parent_covers_void;
     uint8_t planes;           // of the view, still to be tested
 };
 
@@ -57,9 +57,9 @@ class Walk {
         if (verdict == Verdict::leave_out) return;
         if (verdict == Verdict::keep) return emit(piece);
         int next = piece.is_square ? piece.level : piece.level - 1;
-        bool on_rim = code == kMustSplit;
-        descend(Piece{{v, t.apex, t.left}, next, !piece.is_square, on_rim, planes}, depth - 1, later);
-        descend(Piece{{v, t.right, t.apex}, next, !piece.is_square, on_rim, planes}, depth - 1, later);
+        bool covers_void = code == kMustSplit;
+        descend(Piece{{v, t.apex, t.left}, next, !piece.is_square, covers_void, planes}, depth - 1, later);
+        descend(Piece{{v, t.right, t.apex}, next, !piece.is_square, covers_void, planes}, depth - 1, later);
     }
     void descend(const Piece& piece) {
         descend(piece, std::numeric_limits<int>::max(), [](const Piece&) {});
@@ -74,12 +74,12 @@ class Walk {
         return sample.y * shape_.width + sample.x;
     }
     void emit(const Piece& piece) {
-        part_.void_rim_triangle_count += piece.stands_on_void_rim;
+        part_.void_rim_triangle_count += piece.parent_covers_void;
         part_.indices.insert(part_.indices.end(), {index_of(piece.triangle.apex), index_of(piece.triangle.left), index_of(piece.triangle.right)});
     }
     void emit_finest(const Piece& piece) {
         const Triangle& t = piece.triangle;
-        if (piece.stands_on_void_rim)
+        if (piece.parent_covers_void || shape_.root_log2 == 0)
             for (GridPoint p : {t.apex, t.left, t.right})
                 if (terrain_.heights[index_of(p)] == kVoid) return;
         emit(piece);
@@ -101,8 +101,8 @@ std::vector<Piece> root_pieces(const Shape& shape, uint8_t planes) {
             GridPoint nw{i * side, j * side}, ne{nw.x + side, nw.y}, sw{nw.x, nw.y + side}, se{ne.x, sw.y};
             bool main = is_main_diagonal(i, j);
             int level = int(shape.root_log2) - 1;
-            pieces.push_back({main ? Triangle{ne, nw, se} : Triangle{nw, sw, ne}, level, true, true, planes});
-            pieces.push_back({main ? Triangle{sw, se, nw} : Triangle{se, ne, sw}, level, true, true, planes});
+            pieces.push_back({main ? Triangle{ne, nw, se} : Triangle{nw, sw, ne}, level, true, false, planes});
+            pieces.push_back({main ? Triangle{sw, se, nw} : Triangle{se, ne, sw}, level, true, false, planes});
         }
     return pieces;
 }

@@ -9,13 +9,14 @@
 
 #include "formats/mapped_file.h"
 #include "tools/bake/dem_forms.h"
+#include "tools/bake/png_check.h"
 #include "tools/bake/tiff_directory.h"
 
 namespace overlook::dem {
 namespace {
 
 constexpr uint64_t kMostSamples = uint64_t(1) << 31;
-// Ten times the distance from the deepest trench to the highest peak is 200 km: what is beyond this is no height.
+// The Earth's relief spans 20 km; what is fifty times beyond it is no height.
 constexpr double kMostHeight_m = 1e6;
 
 Result<void> check_options(const Options& options) {

@@ -11,7 +11,8 @@
 
 namespace overlook::dem {
 
-// Part of a raster: columns x .. x+width-1, rows y .. y+height-1, north first.
+// Part of a raster: columns x .. x+width-1, rows y .. y+height-1, in the order that the file stores (a GeoTIFF that is stored
+// south first or westward is mirrored after its window is cut out).
 struct Window {
     uint32_t x = 0, y = 0, width = 0, height = 0;
 };
@@ -38,8 +39,12 @@ struct Raster {
     std::string source_hash;    // XXH3-128 of the file's bytes, 32 hex digits
 };
 
-// Reads an elevation model: GeoTIFF (int16, uint16, uint8, float32; what OpenImageIO decodes), SRTM .hgt, 8- and 16-bit
-// grey PNG. The file may be hostile. Fails with Exit::bad_input and one line that names the file and the place.
+// Reads an elevation model: GeoTIFF (int8, uint8, int16, uint16, float32; what OpenImageIO decodes; degrees, UTM or web mercator),
+// SRTM .hgt, 8- and 16-bit grey PNG, known by their first bytes (.hgt by its name). The file may be hostile. Voids are the "no data"
+// value and NaN; an infinity or a height beyond 1000 km that is not declared as "no data" is refused, never drawn. Options that
+// make no sense: Exit::bad_command; more than 2^31 samples: Exit::impossible. Otherwise fails with Exit::bad_input and one line that names the
+// file and the place: "a.tif: column 1, row 1 stores -3.4e+38, which is no height; if it means "no data", give --nodata -3.4e+38".
+// Cost: the file's bytes (for their hash) and the samples of the tiles or strips that the window touches.
 Result<Raster> open(const std::string& path, const Options& options);
 
 }  // namespace overlook::dem

@@ -32,7 +32,6 @@ Result<Stored> read_geotiff(const InputFile& file, const Options& options);
 Result<Stored> read_hgt(const InputFile& file, const Options& options);
 Result<Stored> read_png(const InputFile& file, const Options& options);
 
-bool is_png(std::span<const std::byte> bytes);
 bool is_hgt(const std::string& path);
 
 // The window asked for, or all of a raster. Fails with Exit::bad_input:

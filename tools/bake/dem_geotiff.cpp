@@ -17,6 +17,10 @@ Result<void> check_form(const GeoTiffTags& tags, const std::string& name) {
         return bad_input("{}: has {} channels, an elevation model has one; is it a picture?", name, tags.samples_per_pixel);
     if (tags.photometric > 1)
         return bad_input("{}: its samples are colours (PhotometricInterpretation {}), not heights", name, tags.photometric);
+    if (tags.photometric == 0)
+        return bad_input("{}: stores white as zero (PhotometricInterpretation 0), so high and low could be exchanged; write it with "
+                         "gdal_translate -co PHOTOMETRIC=MINISBLACK",
+                         name);
     const bool is_real = tags.sample_format == SampleFormat::real;
     const bool is_read = is_real ? tags.bits_per_sample == 32 : tags.bits_per_sample == 8 || tags.bits_per_sample == 16;
     if (!is_read)

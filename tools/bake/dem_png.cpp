@@ -1,16 +1,13 @@
 // Grey PNG as an elevation model: heights without a reference. Source: W3C, "Portable Network Graphics (PNG) Specification", 2003.
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "tools/bake/dem_forms.h"
 #include "tools/bake/images.h"
+#include "tools/bake/png_check.h"
 
 namespace overlook::dem {
 namespace {
-
-constexpr size_t kHeaderEnd = 33;  // signature (8), then the IHDR chunk: length, name, 13 bytes, checksum
 
 uint32_t big_endian_32(std::span<const std::byte> bytes, size_t at) {
     uint32_t value = 0;
@@ -33,15 +30,8 @@ Result<void> check_grey(int bit_depth, int colour_type, const std::string& name)
 
 }  // namespace
 
-bool is_png(std::span<const std::byte> bytes) {
-    constexpr std::array<unsigned char, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin(),
-                                                           [](unsigned char a, std::byte b) { return std::byte(a) == b; });
-}
-
 Result<Stored> read_png(const InputFile& file, const Options& options) {
-    if (file.bytes.size() < kHeaderEnd)
-        return bad_input("{}: ends within its header, after {} bytes; was the copy cut short?", file.path, file.bytes.size());
+    if (auto whole = check_png(file.bytes, file.path); !whole) return tl::unexpected(whole.error());
     const uint32_t width = big_endian_32(file.bytes, 16), height = big_endian_32(file.bytes, 20);
     if (auto grey = check_grey(std::to_integer<int>(file.bytes[24]), std::to_integer<int>(file.bytes[25]), file.path); !grey)
         return tl::unexpected(grey.error());

@@ -5,14 +5,16 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <new>
+#include <span>
+#include <stdexcept>
 
+#include "formats/mapped_file.h"
 #include "formats/parallel.h"
+#include "tools/bake/png_check.h"
 
 namespace overlook {
 namespace {
@@ -34,12 +36,12 @@ std::string gist(std::string text) {
 
 // Which of the library's readers a file needs: by its first bytes, so that a wrong extension does not matter, or by its extension.
 // Asking for one reader by name keeps the others (some of which print) from trying.
-std::string reader_of(const std::string& path) {
-    std::array<char, 8> head{};
-    std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-    const auto begins_with = [&](const char* text, size_t size) { return std::memcmp(head.data(), text, size) == 0; };
+std::string reader_of(const std::string& path, std::span<const std::byte> bytes) {
+    const auto begins_with = [&](const char* text, size_t size) {
+        return bytes.size() >= size && std::memcmp(bytes.data(), text, size) == 0;
+    };
     if (begins_with("II*\0", 4) || begins_with("MM\0*", 4) || begins_with("II+\0", 4) || begins_with("MM\0+", 4)) return "tiff";
-    if (begins_with("\x89PNG\r\n\x1a\n", 8)) return "png";
+    if (is_png(bytes)) return "png";
     if (begins_with("\xff\xd8\xff", 3)) return "jpeg";
     const size_t dot = path.find_last_of("./");
     if (dot == std::string::npos || path[dot] == '/') return "";
@@ -66,8 +68,11 @@ struct OpenImage {
 Result<OpenImage> open_image(const std::string& path) {
     OpenImage image;
     image.path = path;
-    if (!std::ifstream(path, std::ios::binary)) return bad_input("{}: cannot be opened: {}", path, std::strerror(errno));
-    const std::string reader = reader_of(path);
+    Result<MappedFile> file = MappedFile::open(path);
+    if (!file) return tl::unexpected(file.error());
+    const std::string reader = reader_of(path, file->bytes());
+    if (reader == "png")
+        if (auto whole = check_png(file->bytes(), path); !whole) return tl::unexpected(whole.error());
     if (!reader.empty()) image.input = ImageInput::create(reader);
     if (!image.input) {
         OIIO::geterror();

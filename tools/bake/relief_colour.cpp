@@ -33,7 +33,8 @@ std::array<double, 255> make_thresholds() {
 // A level surface found from one of its cells.
 struct Surface {
     std::vector<uint32_t> cells;
-    uint64_t rim = 0, lower = 0, beyond = 0;  // sides of cells that end it; of these, towards lower ground; off the grid or void
+    uint64_t rim = 0, lower = 0,
+             beyond = 0;  // sides of cells that end it; of these, towards lower ground; off the grid or void
 };
 
 Surface trace_surface(const Field& field, uint32_t start, std::vector<uint8_t>& is_seen) {
@@ -64,7 +65,9 @@ Surface trace_surface(const Field& field, uint32_t start, std::vector<uint8_t>& 
 
 }  // namespace
 
-Colour linear_from_srgb(uint8_t red, uint8_t green, uint8_t blue) { return {decode(red), decode(green), decode(blue)}; }
+Colour linear_from_srgb(uint8_t red, uint8_t green, uint8_t blue) {
+    return {decode(red), decode(green), decode(blue)};
+}
 
 uint8_t srgb_from_linear(double linear) {
     static const std::array<double, 255> thresholds = make_thresholds();
@@ -74,7 +77,7 @@ uint8_t srgb_from_linear(double linear) {
 Colour ground_colour(const Ground& g) {
     static const Colour plain = linear_from_srgb(146, 148, 98), meadow = linear_from_srgb(112, 128, 76);
     static const Colour forest = linear_from_srgb(64, 86, 56), alp = linear_from_srgb(130, 132, 90);
-    static const Colour scree = linear_from_srgb(150, 140, 124), rock = linear_from_srgb(116, 106, 98);
+    static const Colour scree = linear_from_srgb(148, 142, 124), rock = linear_from_srgb(112, 107, 98);
     static const Colour snow = linear_from_srgb(240, 243, 248), water = linear_from_srgb(38, 84, 104);
     if (g.is_water) return water;
 
@@ -82,7 +85,8 @@ Colour ground_colour(const Ground& g) {
     double mountains = ramp(250, 1400, g.relief_m);
     double h = g.height - 0.05 * g.hollow - 0.05 * g.valley;
     Colour colour = blend(plain, meadow, ramp(0.02, 0.16, h));
-    double wooded = ramp(0.08, 0.20, h) * (1 - ramp(0.42, 0.56, h)) * ramp(0.10, 0.32, g.slope + 0.12 * g.hollow);
+    double wooded =
+        ramp(0.08, 0.20, h) * (1 - ramp(0.42, 0.56, h)) * ramp(0.10, 0.32, g.slope + 0.12 * g.hollow);
     colour = blend(colour, alp, ramp(0.34, 0.58, h));
     colour = blend(colour, forest, 0.9 * wooded);
     colour = blend(colour, scree, ramp(0.55, 0.78, h));
@@ -103,8 +107,8 @@ std::vector<uint8_t> find_water(const Field& field, uint32_t least_cells) {
     for (uint32_t cell = 0; cell < field.height_m.size(); ++cell) {
         if (is_seen[cell] != 0 || std::isnan(field.height_m[cell])) continue;
         Surface surface = trace_surface(field, cell, is_seen);
-        bool is_lake = surface.cells.size() >= least_cells && surface.cells.size() >= 5 * surface.rim && surface.lower * 100 <= surface.rim * 3 &&
-                       surface.beyond * 4 <= surface.rim;
+        bool is_lake = surface.cells.size() >= least_cells && surface.cells.size() >= 5 * surface.rim &&
+                       surface.lower * 100 <= surface.rim * 3 && surface.beyond * 4 <= surface.rim;
         if (!is_lake) continue;
         for (uint32_t wet : surface.cells) is_water[wet] = 1;
     }

@@ -9,6 +9,7 @@ namespace overlook::relief {
 namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180;
+constexpr double kNoShadowM = -1e30;  // finite, so that points between two of them have a height too
 constexpr std::array<int, 11> kReach = {1, 2, 3, 5, 8, 12, 18, 26, 36, 48, 64};  // cells
 
 // Rise per metre from the valid ones of two neighbours and the cell between them.
@@ -20,7 +21,8 @@ float slope_between(float before, float here, float after, double cell_m) {
     return 0;
 }
 
-// The sweep's way over the grid: along `major` one line at a time towards where the shadow falls, `minor_shift` cells sideways a line.
+// The sweep's way over the grid: along `major` one line at a time towards where the shadow falls,
+// `minor_shift` cells sideways a line.
 struct Sweep {
     bool is_by_rows = true;
     int step = 1;
@@ -30,7 +32,8 @@ struct Sweep {
 
 Sweep sweep_of(const Field& field, double azimuth_deg) {
     // Towards the sun, in cells: x to the right, y down the raster.
-    double x = std::sin(azimuth_deg * kRadians) / field.column_m, y = -std::cos(azimuth_deg * kRadians) / field.row_m;
+    double x = std::sin(azimuth_deg * kRadians) / field.column_m,
+           y = -std::cos(azimuth_deg * kRadians) / field.row_m;
     Sweep sweep;
     sweep.is_by_rows = std::abs(y) >= std::abs(x);
     double major = sweep.is_by_rows ? y : x, minor = sweep.is_by_rows ? x : y;
@@ -40,25 +43,40 @@ Sweep sweep_of(const Field& field, double azimuth_deg) {
     return sweep;
 }
 
-// The height of the shadow on the line before, between two cells; -infinity off the grid.
+// The height of the shadow on the line before, between two cells; kNoShadowM off the grid.
 double shadow_at(const std::vector<double>& line, double position) {
     double below = std::floor(position);
     int64_t i = int64_t(below), last = int64_t(line.size()) - 1;
     double share = position - below;
-    if (i < 0 || i > last || (i == last && share > 0)) return -HUGE_VAL;
+    if (i < 0 || i > last || (i == last && share > 0)) return kNoShadowM;
     return share > 0 ? line[size_t(i)] + share * (line[size_t(i) + 1] - line[size_t(i)]) : line[size_t(i)];
 }
 
 float sky_of_cell(const Field& field, double exaggeration, int64_t column, int64_t row) {
     static constexpr double kC = 0.9238795325112867, kD = 0.7071067811865476, kS = 0.3826834323650898;
-    static constexpr std::array<std::array<double, 2>, 16> kDirections = {{{1, 0}, {kC, kS}, {kD, kD}, {kS, kC}, {0, 1}, {-kS, kC}, {-kD, kD},
-        {-kC, kS}, {-1, 0}, {-kC, -kS}, {-kD, -kD}, {-kS, -kC}, {0, -1}, {kS, -kC}, {kD, -kD}, {kC, -kS}}};
+    static constexpr std::array<std::array<double, 2>, 16> kDirections = {{{1, 0},
+                                                                           {kC, kS},
+                                                                           {kD, kD},
+                                                                           {kS, kC},
+                                                                           {0, 1},
+                                                                           {-kS, kC},
+                                                                           {-kD, kD},
+                                                                           {-kC, kS},
+                                                                           {-1, 0},
+                                                                           {-kC, -kS},
+                                                                           {-kD, -kD},
+                                                                           {-kS, -kC},
+                                                                           {0, -1},
+                                                                           {kS, -kC},
+                                                                           {kD, -kD},
+                                                                           {kC, -kS}}};
     double here = field.at(uint32_t(column), uint32_t(row));
     double sum = 0;
     for (const auto& direction : kDirections) {
         double steepest = 0;
         for (int reach : kReach) {
-            int64_t dx = int64_t(std::lround(direction[0] * reach)), dy = int64_t(std::lround(direction[1] * reach));
+            int64_t dx = int64_t(std::lround(direction[0] * reach)),
+                    dy = int64_t(std::lround(direction[1] * reach));
             int64_t x = column + dx, y = row + dy;
             if (x < 0 || y < 0 || x >= field.width || y >= field.height) break;
             double rise = double(field.at(uint32_t(x), uint32_t(y))) - here;
@@ -101,13 +119,15 @@ Slopes slopes_of(const Field& field) {
 std::vector<float> sun_visibility(const Field& field, double azimuth_deg, double altitude_deg) {
     Sweep sweep = sweep_of(field, azimuth_deg);
     double fall_m = sweep.distance_m * std::tan(altitude_deg * kRadians);
-    uint32_t lines = sweep.is_by_rows ? field.height : field.width, length = sweep.is_by_rows ? field.width : field.height;
+    uint32_t lines = sweep.is_by_rows ? field.height : field.width,
+             length = sweep.is_by_rows ? field.width : field.height;
     std::vector<float> visibility(field.height_m.size(), 1.0f);
-    std::vector<double> before(length, -HUGE_VAL), line(length);
+    std::vector<double> before(length, kNoShadowM), line(length);
     for (uint32_t n = 0; n < lines; ++n) {
         uint32_t major = sweep.step > 0 ? n : lines - 1 - n;
         for (uint32_t minor = 0; minor < length; ++minor) {
-            size_t i = sweep.is_by_rows ? size_t(major) * field.width + minor : size_t(minor) * field.width + major;
+            size_t i =
+                sweep.is_by_rows ? size_t(major) * field.width + minor : size_t(minor) * field.width + major;
             double here_m = field.height_m[i];
             double shadow_m = shadow_at(before, minor + sweep.minor_shift) - fall_m;
             bool is_void = std::isnan(here_m);
@@ -125,7 +145,8 @@ std::vector<float> sky_visibility(const Field& field, double exaggeration) {
         for (uint32_t row = uint32_t(begin); row < end; ++row)
             for (uint32_t column = 0; column < field.width; ++column)
                 if (!std::isnan(field.at(column, row)))
-                    visibility[size_t(row) * field.width + column] = sky_of_cell(field, exaggeration, column, row);
+                    visibility[size_t(row) * field.width + column] =
+                        sky_of_cell(field, exaggeration, column, row);
     });
     return visibility;
 }

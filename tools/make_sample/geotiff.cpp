@@ -1,4 +1,5 @@
-// Based on: Aldus, TIFF Revision 6.0, 1992; Open Geospatial Consortium, GeoTIFF Standard 1.1 (19-008r4), 2019.
+// Based on: Aldus, TIFF Revision 6.0, 1992; Open Geospatial Consortium, GeoTIFF Standard 1.1 (19-008r4),
+// 2019.
 #include "tools/make_sample/geotiff.h"
 
 #include <algorithm>
@@ -50,8 +51,8 @@ Field text(uint16_t tag, const std::string& value) {
     return field;
 }
 
-std::vector<Field> fields_of(uint32_t width, uint32_t height, const Placement& placement, std::optional<int> nodata,
-                             uint32_t rows_per_strip) {
+std::vector<Field> fields_of(uint32_t width, uint32_t height, const Placement& placement,
+                             std::optional<int> nodata, uint32_t rows_per_strip) {
     uint32_t strip_count = (height + rows_per_strip - 1) / rows_per_strip;
     std::vector<uint32_t> offsets(strip_count), sizes(strip_count);
     for (uint32_t i = 0; i < strip_count; ++i)

@@ -12,8 +12,9 @@
 namespace overlook::sample {
 namespace {
 
-constexpr double kBaseM = 300;          // height of the outlets
-constexpr double kMarginShare = 0.0625; // of the side, worn down around the map and then cut off, so that its edges look like the rest
+constexpr double kBaseM = 300;  // height of the outlets
+constexpr double kMarginShare =
+    0.0625;  // of the side, worn down around the map and then cut off, so that its edges look like the rest
 constexpr double kSteepest = 1.6;
 constexpr uint32_t kCoarsestSide = 90;
 
@@ -72,13 +73,18 @@ Ground make_ground(uint64_t seed, uint32_t side, double cell_m) {
     return ground;
 }
 
-// The coarser heights between its samples, roughened a little so that small valleys find their own way.
+// The coarser heights between its samples, looked up a little beside where they stand and roughened, so that
+// straight valleys bend and small ones find their own way.
 Grid refine(const Grid& coarse, uint32_t side, double cell_m, uint64_t seed) {
     Grid fine(side, cell_m);
     double ratio = double(coarse.side - 1) / double(side - 1);
     for (uint32_t row = 0; row < side; ++row)
         for (uint32_t column = 0; column < side; ++column) {
-            double x = column * ratio, y = row * ratio;
+            double x = column * ratio, y = row * ratio, last = coarse.side - 1;
+            double bend_x = 1.5 * fractal_noise(seed + 20, x / 5, y / 5, 2),
+                   bend_y = 1.5 * fractal_noise(seed + 30, x / 5, y / 5, 2);
+            x = std::clamp(x + bend_x, 0.0, last);
+            y = std::clamp(y + bend_y, 0.0, last);
             uint32_t i = std::min(uint32_t(x), coarse.side - 2), j = std::min(uint32_t(y), coarse.side - 2);
             double fx = x - i, fy = y - j;
             double top = coarse.at(i, j) + fx * (coarse.at(i + 1, j) - coarse.at(i, j));
@@ -98,10 +104,13 @@ Grid grow_range(uint64_t seed, uint32_t side, double cell_m, Ground& ground) {
         double level_cell_m = cell_m * double(side - 1) / double(sides[level] - 1);
         ground = make_ground(seed, sides[level], level_cell_m);
         bool is_first = height_m.values.empty();
-        height_m = is_first ? Grid(sides[level], level_cell_m, kBaseM) : refine(height_m, sides[level], level_cell_m, seed + level);
+        height_m = is_first ? Grid(sides[level], level_cell_m, kBaseM)
+                            : refine(height_m, sides[level], level_cell_m, seed + level);
         for (size_t i = 0; i < height_m.values.size(); ++i)
-            if (ground.is_outlet[i]) height_m.values[i] = kBaseM;
-            else if (is_first) height_m.values[i] += 600 * unit_from_hash(hash_of(seed + 50, i, 0));
+            if (ground.is_outlet[i])
+                height_m.values[i] = kBaseM;
+            else if (is_first)
+                height_m.values[i] += 600 * unit_from_hash(hash_of(seed + 50, i, 0));
         Rivers rivers;
         rivers.seed = seed + 900 + level;
         rivers.wander = 0.9;
@@ -135,7 +144,7 @@ void dig_lake(Grid& height_m, const Ground& ground, uint64_t seed) {
     for (uint32_t y = 0; y < side; ++y)
         for (uint32_t x = 0; x < side; ++x) {
             double dx = (x - column) / radius, dy = (y - row) / radius;
-            double off = dx * dx + dy * dy + 0.5 * fractal_noise(seed + 800, dx * 1.3, dy * 1.3, 4);
+            double off = dx * dx + dy * dy + 1.3 * fractal_noise(seed + 800, dx * 0.9, dy * 0.9, 4);
             if (off >= 1) continue;
             double& here_m = height_m.at(x, y);
             double low = 1 - smooth_step(brim_m, brim_m + 1.2 * depth_m, here_m);
@@ -157,7 +166,8 @@ void roughen_slopes(Grid& height_m, double extent_m, uint64_t seed) {
                 if (amount_m <= 0) continue;
                 double x = map_position(column, side) * extent_m, y = map_position(row, side) * extent_m;
                 double bend_m = 120 * gradient_noise(seed + 950, x / 500, y / 500);
-                height_m.at(column, row) += amount_m * (ridged_noise(seed + 960, (x + bend_m) / 420, (y - bend_m) / 420, 4) - 0.6);
+                height_m.at(column, row) +=
+                    amount_m * (ridged_noise(seed + 960, (x + bend_m) / 420, (y - bend_m) / 420, 4) - 0.6);
             }
     });
 }

@@ -40,7 +40,9 @@ double corner(uint64_t seed, int64_t column, int64_t row, double dx, double dy) 
     return direction[0] * dx + direction[1] * dy;
 }
 
-double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+double fade(double t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
 
 }  // namespace
 
@@ -48,7 +50,9 @@ uint64_t hash_of(uint64_t seed, uint64_t a, uint64_t b) {
     return mix(mix(mix(seed + 0x9e3779b97f4a7c15u) + a * 0xd1342543de82ef95u) + b * 0x2545f4914f6cdd1du);
 }
 
-double unit_from_hash(uint64_t hash) { return double(hash >> 11) * 0x1p-53; }
+double unit_from_hash(uint64_t hash) {
+    return double(hash >> 11) * 0x1p-53;
+}
 
 double gradient_noise(uint64_t seed, double x, double y) {
     double column = std::floor(x), row = std::floor(y);

@@ -22,13 +22,13 @@ struct DemReport {
     uint64_t void_samples = 0;
 };
 
-// Writes `dem.tif` (32-bit floats, multiples of kHeightStepM, on UTM zone 32N) and `recipe.toml` into a folder, which it makes where
-// there is none. Fails with Exit::cannot_write, or with Exit::bad_command:
-// "--size 20 is outside 33..8193", "--cell-size-m 0 is outside 1..1000", "--voids 20000 is outside 0..10000".
+// Writes `dem.tif` (32-bit floats, multiples of kHeightStepM, on UTM zone 32N) and `recipe.toml` into a
+// folder, which it makes where there is none. Fails with Exit::cannot_write, or with Exit::bad_command:
+// "--size 20 is outside 33..4097", "--cell-size-m 0 is outside 1..1000", "--voids 20000 is outside 0..10000".
 Result<DemReport> make_dem(const DemOptions& options, const std::string& folder);
 
-// Digs `count` irregular holes, each at most a sixteenth of the side wide, at places that follow from the seed: samples become `nodata`.
-// samples: [side, side]. Returns how many samples are void.
+// Digs `count` irregular holes, each at most a sixteenth of the side wide, at places that follow from the
+// seed: samples become `nodata`. samples: [side, side]. Returns how many samples are void.
 uint64_t dig_voids(std::vector<float>& samples, uint32_t side, uint32_t count, uint64_t seed, float nodata);
 
 }  // namespace overlook::sample
