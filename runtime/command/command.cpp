@@ -38,8 +38,8 @@ std::string full_name(const CLI::App& app, const char* typed) {
 
 // A result that did not reach its reader is not a result.
 int flush_output(const std::string& name, int exit_code) {
-    std::cout.flush();
     errno = 0;
+    std::cout.flush();
     bool is_whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
     if (is_whole) return exit_code;
     std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";

@@ -55,10 +55,10 @@ view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double h
     double to_middle_deg = degrees(std::atan2(width_m, depth_m));
     camera.heading_deg = -(45 + to_middle_deg) / 2;
     camera.position_m = {width_m * 0.97, -depth_m * 0.97, 0};
-    double above_mean_m = std::max(0.1 * diagonal_m, 0.75 * (highest_m - mean_m));
+    double above_mean_m = std::max(0.055 * diagonal_m, 0.8 * (highest_m - mean_m));
     camera.position_m.z = mean_m + above_mean_m;
     std::optional<double> ground = ground_m(terrain, camera.position_m.x, camera.position_m.y);
-    if (ground) camera.position_m.z = std::max(camera.position_m.z, *ground + 0.05 * diagonal_m);
+    if (ground) camera.position_m.z = std::max(camera.position_m.z, *ground + 0.03 * diagonal_m);
 
     double half_tangent = std::tan(camera.fov_y_deg / 2 * std::numbers::pi / 180);
     camera.pitch_deg = -degrees(std::atan(0.42 * half_tangent));

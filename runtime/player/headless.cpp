@@ -17,11 +17,12 @@ Result<void> write_picture(const Plan& plan, const gl::Target& target, uint32_t 
     return write_png(*path, target.read());
 }
 
-Result<void> run_headless(const Plan& plan, const command::Common& common, Scene read_scene) {
+Result<void> run_headless(Plan plan, const command::Common& common, Scene read_scene) {
     Result<gl::Context> context = gl::Context::headless();
     if (!context) return tl::unexpected(context.error());
     gl::ErrorCounter errors;
     Scene scene = std::move(read_scene);  // goes before the context
+    choose_samples(plan, context->renderer().is_software, false);
     Result<gl::Target> target = gl::Target::make(plan.width_px, plan.height_px, plan.options.samples);
     if (!target) return tl::unexpected(target.error());
     if (Result<void> uploaded = scene.upload(); !uploaded) return uploaded;

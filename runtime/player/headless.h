@@ -7,7 +7,7 @@
 namespace overlook::player {
 
 // Draws the frames of the plan, writes the pictures and the report.
-Result<void> run_headless(const Plan& plan, const command::Common& common, Scene read_scene);
+Result<void> run_headless(Plan plan, const command::Common& common, Scene read_scene);
 
 // Writes the target's picture if the plan wants one of this frame.
 Result<void> write_picture(const Plan& plan, const gl::Target& target, uint32_t frame, bool is_last);

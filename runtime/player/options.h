@@ -25,7 +25,7 @@ struct Options {
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;
-    uint32_t samples = 4;
+    uint32_t samples = 0;                   // a pixel; 0 = settled by choose_samples
 };
 
 // The same, understood.
@@ -40,6 +40,10 @@ void add_options(CLI::App& app, Options& options);
 
 // Fails with Exit::bad_command and a line that names the option.
 Result<Plan> plan_from(const Options& options);
+
+// Settles the samples a pixel, if none were asked for: 4, but 1 in a window that the processor draws, which would else be too
+// slow to fly. With 1 the texture is filtered the fast way as well.
+void choose_samples(Plan& plan, bool is_software, bool is_window);
 
 // "WIDTHxHEIGHT", each 1..32768.
 Result<void> parse_size(std::string_view text, uint32_t& width_px, uint32_t& height_px);

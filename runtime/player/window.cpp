@@ -213,7 +213,7 @@ bool has_display() {
     return (x11 != nullptr && *x11 != '\0') || (wayland != nullptr && *wayland != '\0');
 }
 
-Result<void> run_in_window(const Plan& plan, const command::Common& common, Scene read_scene) {
+Result<void> run_in_window(Plan plan, const command::Common& common, Scene read_scene) {
     if (!glfwInit()) return no_window(last_glfw_error());
     EndGlfw end_glfw;
     Result<WindowHandle> window = open_window(plan);
@@ -221,6 +221,7 @@ Result<void> run_in_window(const Plan& plan, const command::Common& common, Scen
     Result<gl::Renderer> renderer = gl::describe_current_context();
     if (!renderer) return tl::unexpected(renderer.error());
 
+    choose_samples(plan, renderer->is_software, true);
     gl::ErrorCounter errors;
     Scene scene = std::move(read_scene);  // goes before the window and its context
     if (Result<void> uploaded = scene.upload(); !uploaded) return uploaded;

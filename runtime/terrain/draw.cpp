@@ -58,11 +58,6 @@ Result<gl::Texture> make_texture(const ImageRgb8& image) {
     glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-        GLfloat most = 1;
-        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-        glTextureParameterf(id, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
-    }
     return texture;
 }
 
@@ -143,7 +138,7 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform1i(program.at("has_texture"), has_texture_ ? 1 : 0);
     glUniform1i(program.at("colours"), 0);
     glUniform2f(program.at("height_range_m"), float(lowest_m_), float(highest_m_));
-    glUniform1f(program.at("haze_per_m"), float(0.55 * options.haze / std::hypot(width_m, height_m)));
+    glUniform1f(program.at("haze_per_m"), float(1.1 * options.haze / std::hypot(width_m, height_m)));
     glUniform1f(program.at("line_px"), float(options.line_px));
 }
 
@@ -166,6 +161,11 @@ void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, c
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
     if (has_texture_) glBindTextureUnit(0, texture_.id());
+    if (has_texture_ && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+        GLfloat most = 1;
+        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+        glTextureParameterf(texture_.id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(options.anisotropy, 1.0f, most));
+    }
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 

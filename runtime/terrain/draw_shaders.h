@@ -68,13 +68,13 @@ vec3 encoded(vec3 linear) {
 
 // The sky, and the air before far things, by the sine of the altitude one looks at.
 vec3 air_colour(float up) {
-    vec3 horizon = vec3(0.66, 0.74, 0.82);
-    vec3 middle = vec3(0.26, 0.44, 0.70);
-    vec3 zenith = vec3(0.07, 0.17, 0.42);
-    vec3 nadir = vec3(0.36, 0.43, 0.50);
-    if (up < 0.0) return mix(horizon, nadir, 1.0 - exp(up * 3.0));
-    vec3 low = mix(horizon, middle, 1.0 - exp(-up * 6.0));
-    return mix(low, zenith, smoothstep(0.15, 0.95, up));
+    vec3 horizon = vec3(0.60, 0.69, 0.78);
+    vec3 middle = vec3(0.16, 0.34, 0.64);
+    vec3 zenith = vec3(0.04, 0.11, 0.34);
+    vec3 nadir = vec3(0.24, 0.31, 0.39);
+    if (up < 0.0) return mix(horizon, nadir, 1.0 - exp(-12.0 * up * up));
+    vec3 low = mix(horizon, middle, 1.0 - exp(-7.0 * up - 20.0 * up * up));
+    return mix(low, zenith, smoothstep(0.2, 0.95, up));
 }
 )";
 
@@ -105,7 +105,7 @@ vec3 ground_colour() {
 vec3 behind_air(vec3 ground) {
     float distance_m = length(surface.relative_m);
     vec3 air = air_colour(min(surface.relative_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
-    return mix(air, ground, exp(-distance_m * haze_per_m));
+    return mix(air, ground, exp(-pow(distance_m * haze_per_m, 1.5)));
 }
 )";
 
@@ -124,8 +124,7 @@ void main() {
     vec3 away_px = corners / per_px;
     float nearest_px = min(away_px.x, min(away_px.y, away_px.z));
     float line = 1.0 - smoothstep(0.5 * line_px - 0.5, 0.5 * line_px + 0.5, nearest_px);
-    float grey = dot(ground_colour(), vec3(0.2126, 0.7152, 0.0722));
-    vec3 paper = mix(vec3(grey), ground_colour(), 0.35) * 0.35 + vec3(0.60, 0.61, 0.60);
+    vec3 paper = mix(ground_colour(), vec3(0.85, 0.85, 0.82), 0.45);
     vec3 ink = vec3(0.015, 0.05, 0.11);
     colour = vec4(encoded(behind_air(mix(paper, ink, 0.85 * line))), 1.0);
 }
