@@ -138,7 +138,7 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform1i(program.at("has_texture"), has_texture_ ? 1 : 0);
     glUniform1i(program.at("colours"), 0);
     glUniform2f(program.at("height_range_m"), float(lowest_m_), float(highest_m_));
-    glUniform1f(program.at("haze_per_m"), float(1.1 * options.haze / std::hypot(width_m, height_m)));
+    glUniform1f(program.at("haze_per_m"), float(0.5 * options.haze / std::hypot(width_m, height_m)));
     glUniform1f(program.at("line_px"), float(options.line_px));
 }
 

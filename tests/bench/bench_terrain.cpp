@@ -34,7 +34,7 @@ struct Table {
     void add(const std::string& benchmark, const std::string& input, int repeats, const bench::Times& times, double work, const char* unit, double least_bytes, double bytes_per_sample) {
         double gb_s = least_bytes / (times.min_ms * 1e6);
         csv += fmt::format("{},{},{},{},{:.3f},{:.3f},{:.3f},{:.0f},{},{:.1f},{:.0f},{:.2f},{:.2f},{:.4f},{:.3f},{:.0f},\"{}\"\n", benchmark, input, thread_count(), repeats, times.min_ms, times.median_ms,
-                           times.max_ms, work, unit, work / times.min_ms, least_bytes, gb_s, machine_gb_s, gb_s / machine_gb_s, bytes_per_sample, bench::peak_memory_mb(), machine);
+                           times.max_ms, work, unit, work / times.min_ms, least_bytes, gb_s, machine_gb_s, gb_s / machine_gb_s, bytes_per_sample, times.peak_memory_mb, machine);
     }
 };
 
