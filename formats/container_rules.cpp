@@ -74,10 +74,4 @@ uint64_t checksum_of_head(std::span<const std::byte> head) {
     return checksum_of(copy);
 }
 
-std::string with_commas(uint64_t number) {
-    std::string text = std::to_string(number);
-    for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
-    return text;
-}
-
 }  // namespace overlook::container

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "formats/container.h"
+#include "formats/numbers.h"
 
 namespace overlook::container {
 
@@ -33,9 +34,6 @@ bool is_printable(Tag tag);
 // XXH3-64 of header and table (kFirstSectionOffset bytes), the checksum's own eight bytes taken as zero.
 uint64_t checksum_of_head(std::span<const std::byte> head);
 uint64_t checksum_of(std::span<const std::byte> bytes);
-
-// 4096 -> "4,096".
-std::string with_commas(uint64_t number);
 
 // The error of a broken rule: "NAME: C5: TEXT".
 template <class... Args>

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "formats/atomic_file.h"
+#include "formats/numbers.h"
 
 namespace overlook::player {
 namespace {
@@ -49,12 +50,6 @@ Json summaries(const std::vector<FrameRecord>& frames) {
             {"predicted_error_px", of(&FrameRecord::predicted_error_px)}};
 }
 
-std::string grouped(uint64_t number) {
-    std::string digits = std::to_string(number);
-    for (size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
-    return digits;
-}
-
 }  // namespace
 
 double percentile(std::vector<double> values, double share) {
@@ -86,8 +81,8 @@ std::string summary_line(const Plan& plan, const gl::Renderer& renderer, const s
     };
     return fmt::format("{} frame{} of {} triangles, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
                        "{:.2f} px",
-                       grouped(frames.size()), frames.size() == 1 ? "" : "s",
-                       grouped(uint64_t(middle(&FrameRecord::triangle_count))), middle(&FrameRecord::refine_ms),
+                       with_commas(frames.size()), frames.size() == 1 ? "" : "s",
+                       with_commas(uint64_t(middle(&FrameRecord::triangle_count))), middle(&FrameRecord::refine_ms),
                        middle(&FrameRecord::draw_ms), renderer.name, renderer.is_software ? " (software)" : "",
                        plan.options.error_px, middle(&FrameRecord::predicted_error_px));
 }
