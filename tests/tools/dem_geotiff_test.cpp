@@ -143,6 +143,30 @@ TEST(GeoTiff, MirrorsRastersThatAreStoredSouthFirstOrWestward) {
     EXPECT_EQ(samples(-30, 30), (std::vector<float>{6, 5, 4, 3, 2, 1}));
 }
 
+TEST(GeoTiff, TakesGdalsScaleAndOffset) {
+    const Scratch scratch;
+    const auto opened = [&](const std::string& items, const dem::Options& options) {
+        return dem::open(scratch.write("s.tif", small_utm<int16_t>({1, 2, 3, 4, 5, 6}).text(42112, "<GDALMetadata>" + items + "</GDALMetadata>").bytes()), options);
+    };
+    const std::string scale = "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.1</Item>",
+                      offset = "<Item name=\"OFFSET\" sample=\"0\" role=\"offset\">-100</Item>",
+                      other = "<Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item><Item name=\"AREA_OR_POINT\">Area</Item>";
+    const Result<dem::Raster> both = opened(other + scale + offset, kNone);
+    ASSERT_TRUE(both);
+    EXPECT_EQ(both->height_scale_m, 0.1);
+    EXPECT_EQ(both->height_offset_m, -100);
+    EXPECT_EQ(opened(other, kNone)->height_scale_m, 1);
+    dem::Options doubled;
+    doubled.height_scale_m = 2;
+    EXPECT_EQ(opened(scale + offset, doubled)->height_scale_m, 2);
+    EXPECT_EQ(opened(scale + offset, doubled)->height_offset_m, 0);
+    for (const char* words : {"zero", "0", "", "1e999", "1 m"}) {
+        const Result<dem::Raster> broken = opened("<Item role=\"scale\">" + std::string(words) + "</Item>", kNone);
+        ASSERT_FALSE(broken) << words;
+        EXPECT_NE(broken.error().message.find("GDAL_METADATA gives a scale"), std::string::npos);
+    }
+}
+
 TEST(GeoTiff, RefusesFormsThatAreNoElevationModel) {
     const Scratch scratch;
     const std::vector<int16_t> six{1, 2, 3, 4, 5, 6};
@@ -163,6 +187,7 @@ TEST(GeoTiff, RefusesFormsThatAreNoElevationModel) {
     refused(longs, "32-bit integers");
     refused(small_utm(six).shorts(262, {0}), "white as zero");
     refused(small_utm(six).shorts(262, {3}), "samples are colours");
+    refused(small_utm(six).shorts(274, {3}), "rows do not run from the top left");
 }
 
 TEST(GeoTiff, RefusesUnknownReferencesAndTakesACellSizeInstead) {

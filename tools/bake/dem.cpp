@@ -64,6 +64,7 @@ Result<Raster> finished(Stored stored, const InputFile& file, const Options& opt
     raster.samples = std::move(stored.samples);
     raster.samples_are_integers = stored.samples_are_integers;
     raster.height_scale_m = options.height_scale_m.value_or(stored.height_scale_m);
+    raster.height_offset_m = stored.height_offset_m;
     raster.frame = std::move(stored.frame);
     raster.source_name = bare_name(file.path);
     raster.source_hash = content_hash(file.bytes);

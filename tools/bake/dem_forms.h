@@ -24,6 +24,7 @@ struct Stored {
     std::vector<float> samples;
     bool samples_are_integers = false;
     double height_scale_m = 1;
+    double height_offset_m = 0;
     std::optional<double> nodata;  // of the file; Options::nodata comes before it
     terrain::Frame frame;
 };

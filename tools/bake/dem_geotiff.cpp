@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/bake/dem_forms.h"
+#include "tools/bake/gdal_metadata.h"
 #include "tools/bake/georeference.h"
 #include "tools/bake/geotiff_tags.h"
 #include "tools/bake/images.h"
@@ -21,6 +22,8 @@ Result<void> check_form(const GeoTiffTags& tags, const std::string& name) {
         return bad_input("{}: stores white as zero (PhotometricInterpretation 0), so high and low could be exchanged; write it with "
                          "gdal_translate -co PHOTOMETRIC=MINISBLACK",
                          name);
+    if (tags.orientation != 1)
+        return bad_input("{}: its rows do not run from the top left (Orientation {}); write it with gdal_translate, which leaves that out", name, tags.orientation);
     const bool is_real = tags.sample_format == SampleFormat::real;
     const bool is_read = is_real ? tags.bits_per_sample == 32 : tags.bits_per_sample == 8 || tags.bits_per_sample == 16;
     if (!is_read)
@@ -98,7 +101,10 @@ Result<Stored> read_geotiff(const InputFile& file, const Options& options) {
     stored.nodata = *nodata;
     Result<double> height_scale_m = options.height_scale_m ? Result<double>(*options.height_scale_m) : height_scale_from_keys(*tags, file.path);
     if (!height_scale_m) return tl::unexpected(height_scale_m.error());
-    stored.height_scale_m = *height_scale_m;
+    Result<ValueScale> values = options.height_scale_m ? Result<ValueScale>(ValueScale{}) : value_scale_of(tags->gdal_metadata, file.path);
+    if (!values) return tl::unexpected(values.error());
+    stored.height_scale_m = *height_scale_m * values->scale;
+    stored.height_offset_m = *height_scale_m * values->offset;
     Result<Place> place = options.cell_size_m ? Result<Place>(Place{plain_frame(*options.cell_size_m), {}}) : place_of(*tags, *window, file.path);
     if (!place) return tl::unexpected(place.error());
     stored.frame = std::move(place->frame);

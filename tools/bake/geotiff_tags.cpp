@@ -14,7 +14,7 @@ constexpr uint16_t kImageWidth = 256, kImageLength = 257, kBitsPerSample = 258, 
                    kStripOffsets = 273, kSamplesPerPixel = 277, kRowsPerStrip = 278, kStripByteCounts = 279, kPlanarConfiguration = 284,
                    kTileWidth = 322, kTileLength = 323, kTileOffsets = 324, kTileByteCounts = 325, kSampleFormat = 339,
                    kModelPixelScale = 33550, kModelTiepoint = 33922, kModelTransformation = 34264, kGeoKeyDirectory = 34735,
-                   kGeoDoubleParams = 34736, kGeoAsciiParams = 34737, kGdalNodata = 42113;
+                   kGeoDoubleParams = 34736, kGeoAsciiParams = 34737, kOrientation = 274, kGdalMetadata = 42112, kGdalNodata = 42113;
 
 // No compression that OpenImageIO decodes makes samples this many times smaller; a file that claims more is damaged, and would
 // only make us allocate what it does not hold. (zstd's runs: 128 KiB in 4 bytes.)
@@ -201,6 +201,12 @@ Result<GeoTiffTags> read_geotiff_tags(std::span<const std::byte> bytes, const st
     Result<std::string> nodata = tiff_text(*directory, kGdalNodata, "GDAL_NODATA");
     if (!nodata) return tl::unexpected(nodata.error());
     if (!nodata->empty()) tags.nodata = std::move(*nodata);
+    Result<std::string> metadata = tiff_text(*directory, kGdalMetadata, "GDAL_METADATA");
+    if (!metadata) return tl::unexpected(metadata.error());
+    tags.gdal_metadata = std::move(*metadata);
+    Result<std::vector<uint64_t>> orientation = tiff_integers(*directory, kOrientation, "Orientation");
+    if (!orientation) return tl::unexpected(orientation.error());
+    if (!orientation->empty()) tags.orientation = uint32_t(std::min<uint64_t>(orientation->front(), 9));
     return tags;
 }
 

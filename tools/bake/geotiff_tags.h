@@ -36,6 +36,8 @@ struct GeoTiffTags {
     std::vector<double> transformation; // 34264: none or 16, row-major
     std::vector<GeoKey> keys;           // in rising order of id
     std::string citation;               // the reference in the file's own words, printable ASCII, or empty
+    uint32_t orientation = 1;         // 274: 1 = first row at the top, first column at the left
+    std::string gdal_metadata;          // 42112, XML, or empty
     std::optional<std::string> nodata;  // 42113, as text
 
     std::optional<uint16_t> key(uint16_t id) const;
