@@ -27,7 +27,7 @@ bool is_between(double value, double low, double high) { return value >= low && 
 // The fields of TINF that need no other section.
 Result<void> read_shape(const Reader& file, std::span<const std::byte> info, Terrain& terrain) {
     uint32_t width = load_le<uint32_t>(info, info_at::width), height = load_le<uint32_t>(info, info_at::height);
-    if (width < 2 || height < 2 || uint64_t(width) * height > uint64_t(1) << 31)
+    if (width < 2 || height < 2 || uint64_t(width) * height > kSamplesMax)
         return broken(file, 3, "a raster of {} x {} samples; at least 2 x 2 and at most 2^31 in all are allowed", width, height);
     terrain.shape = shape_of(width, height);
 
