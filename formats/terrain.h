@@ -87,7 +87,7 @@ Result<void> write(container::Writer& writer, const Terrain& terrain);
 
 // Reads a baked terrain whole. The file may be hostile; every failure is Exit::bad_input and names file, rule and place:
 // "valley.ovl: T9: block 17: its bytes do not match their checksum; was the file damaged?". Memory: O(samples), of which
-// a file must hold at least one byte for 1,024 (32 a block in its directory) before any is taken. Exit::impossible if there is not
+// a file must hold at least one byte for 521 (32 a block in its directory) before any is taken. Exit::impossible if there is not
 // so much memory.
 Result<Terrain> read(const std::string& path);
 Result<Terrain> read(const container::Reader& file);

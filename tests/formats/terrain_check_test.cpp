@@ -47,7 +47,7 @@ TEST(TerrainCheck, FindsEveryCodeAboveItsParent) {
             code = 1;
             auto place = find_code_above_parent(terrain);
             code = 0;
-            ASSERT_EQ(place.has_value(), !is_root && !drawn.empty()) << x << ", " << y << " of " << width << " x " << height;
+            ASSERT_EQ(place.has_value(), !is_root && !drawn.empty()) << x << ", " << y << " of " << terrain.shape.width << " x " << terrain.shape.height;
             if (place) {
                 ASSERT_EQ(std::tuple(place->x, place->y, place->level), std::tuple(x, y, level));
             }
@@ -68,7 +68,7 @@ TEST(TerrainCheck, FindsEveryDiamondThatCoversAVoidUnmarked) {
                 bool covers = std::any_of(drawn.begin(), drawn.end(), [&](const Triangle& t) {
                     return std::ranges::any_of(std::array{t.apex, t.left, t.right, GridPoint{x, y}}, [&](GridPoint p) {
                         GridPoint at = sample_of(terrain.shape, p);
-                        return size_t(at.y) * width + at.x == sample;
+                        return size_t(at.y) * terrain.shape.width + at.x == sample;
                     });
                 });
                 if (!covers) return;

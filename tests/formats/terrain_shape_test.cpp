@@ -104,7 +104,7 @@ TEST(TerrainDiamonds, SplitIntoTrianglesOfDiamondsThatFollow) {
                     bool is_there = std::any_of(of_child, of_child + child_count, [&](const Triangle& t) {
                         return t.apex == half.apex && t.left == half.left && t.right == half.right;
                     });
-                    ASSERT_TRUE(is_there) << x << ", " << y << " of " << width << " x " << height;
+                    ASSERT_TRUE(is_there) << x << ", " << y << " of " << shape.width << " x " << shape.height;
                     if (is_degenerate(shape, triangles[i])) {
                         ASSERT_TRUE(is_degenerate(shape, half));
                     }
