@@ -80,12 +80,15 @@ struct Terrain {
     }
 };
 
-// Adds the terrain's sections to a baked file: TINF, TDIR, TBLK and, if there is a texture, TTEX. Same terrain, same bytes.
+// Adds the terrain's sections to a baked file: TINF, TBLK, TDIR and, if there is a texture, TTEX. Same terrain, same bytes.
+// A terrain whose parts do not fit each other, or whose reference system's name is longer than 32 printable characters, is
+// Exit::our_bug: "a terrain to write has heights or codes that do not fit the raster's size".
 Result<void> write(container::Writer& writer, const Terrain& terrain);
 
 // Reads a baked terrain whole. The file may be hostile; every failure is Exit::bad_input and names file, rule and place:
 // "valley.ovl: T9: block 17: its bytes do not match their checksum; was the file damaged?". Memory: O(samples), of which
-// a file must hold at least one byte for 512 (32 a block in its directory) before any is taken.
+// a file must hold at least one byte for 521 (32 a block in its directory) before any is taken. Exit::impossible if there is not
+// so much memory.
 Result<Terrain> read(const std::string& path);
 Result<Terrain> read(const container::Reader& file);
 

@@ -1,6 +1,8 @@
 #include "formats/terrain_blocks.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "formats/little_endian.h"
 
@@ -39,14 +41,32 @@ std::vector<Extent> extents_of(const Shape& shape, const Block& block) {
     return extents;
 }
 
-// Calls visit(i, j) for the vertices of an extent that belong to its level: first middles of squares, then of edges, row by row.
+// The part of an extent that stands on the raster.
+Extent on_raster(const Shape& shape, Extent extent) {
+    extent.i_end = std::min(extent.i_end, ((shape.width - 1) >> extent.level) + 1);
+    extent.j_end = std::min(extent.j_end, ((shape.height - 1) >> extent.level) + 1);
+    return extent;
+}
+
+// Vertices (i, j), (i + 2, j), ... below i_end of one row.
+struct Run {
+    uint32_t j, i, i_end;
+};
+
+// Calls visit(run) for the vertices of an extent that belong to its level: first middles of squares, then of edges, row by row.
 template <class Visit>
-void visit_vertices(const Extent& extent, const Visit& visit) {
+void visit_runs(const Extent& extent, const Visit& visit) {
     auto first_from = [](uint32_t begin, uint32_t parity) { return begin + ((begin ^ parity) & 1); };
-    for (uint32_t j = first_from(extent.j_begin, 1); j < extent.j_end; j += 2)
-        for (uint32_t i = first_from(extent.i_begin, 1); i < extent.i_end; i += 2) visit(i, j);
-    for (uint32_t j = extent.j_begin; j < extent.j_end; ++j)
-        for (uint32_t i = first_from(extent.i_begin, (j + 1) & 1); i < extent.i_end; i += 2) visit(i, j);
+    for (uint32_t j = first_from(extent.j_begin, 1); j < extent.j_end; j += 2) visit(Run{j, first_from(extent.i_begin, 1), extent.i_end});
+    for (uint32_t j = extent.j_begin; j < extent.j_end; ++j) visit(Run{j, first_from(extent.i_begin, (j + 1) & 1), extent.i_end});
+}
+
+// How many that are: all but those with two even coordinates.
+uint64_t vertex_count(const Extent& extent) {
+    if (extent.i_begin >= extent.i_end || extent.j_begin >= extent.j_end) return 0;
+    auto evens = [](uint32_t begin, uint32_t end) { return uint64_t((end + 1) / 2) - (begin + 1) / 2; };
+    return uint64_t(extent.i_end - extent.i_begin) * (extent.j_end - extent.j_begin) -
+           evens(extent.i_begin, extent.i_end) * evens(extent.j_begin, extent.j_end);
 }
 
 // The corners of root squares, which belong to no level, as far as a top block holds them.
@@ -65,40 +85,61 @@ void visit_corners(const Shape& shape, const Block& block, const Visit& visit) {
 // A rounded-down mean of the neighbours that are already there: of a square its corners, of an edge its ends and, within the block, the middles of the squares beside it.
 class Predictor {
   public:
-    Predictor(const Terrain& terrain, const Extent& extent, bool is_top) : terrain_(terrain), extent_(extent), is_top_(is_top) {}
+    // `extent` is one on the raster.
+    Predictor(const Terrain& terrain, const Extent& extent, bool is_top)
+        : terrain_(terrain), extent_(extent), is_top_(is_top), step_x_(ptrdiff_t(1) << extent.level), step_y_(step_x_ * terrain.shape.width) {}
 
-    int32_t at(uint32_t i, uint32_t j) {
-        sum_ = count_ = 0;
+    // Where all four neighbours of a vertex of row j are within the block: columns [begin, end), none if end <= begin.
+    std::pair<uint32_t, uint32_t> inner_columns(uint32_t j) const {
+        if (j <= extent_.j_begin || j + 1 >= extent_.j_end) return {0, 0};
+        return {extent_.i_begin + 1, extent_.i_end - 1};
+    }
+
+    // The same as at() for such a vertex, which stands at `height`.
+    int32_t at_inner(const int32_t* height, uint32_t i, uint32_t j) const {
+        bool is_square = (i & j & 1) != 0;
+        ptrdiff_t first = is_square ? step_y_ + step_x_ : step_x_, second = is_square ? step_y_ - step_x_ : step_y_;
+        int32_t a = height[-first], b = height[first], c = height[-second], d = height[second];
+        if (a == kVoid || b == kVoid || c == kVoid || d == kVoid) return at(i, j);
+        return int32_t((int64_t(a) + b + c + d) >> 2);
+    }
+
+    int32_t at(uint32_t i, uint32_t j) const {
+        Sum sum;
         if ((i & j & 1) != 0) {
-            coarser(i - 1, j - 1), coarser(i + 1, j - 1), coarser(i - 1, j + 1), coarser(i + 1, j + 1);
+            coarser(i - 1, j - 1, sum), coarser(i + 1, j - 1, sum), coarser(i - 1, j + 1, sum), coarser(i + 1, j + 1, sum);
         } else if ((i & 1) != 0) {
-            coarser(i - 1, j), coarser(i + 1, j), within(i, int64_t(j) - 1), within(i, int64_t(j) + 1);
+            coarser(i - 1, j, sum), coarser(i + 1, j, sum), within(i, int64_t(j) - 1, sum), within(i, int64_t(j) + 1, sum);
         } else {
-            coarser(i, j - 1), coarser(i, j + 1), within(int64_t(i) - 1, j), within(int64_t(i) + 1, j);
+            coarser(i, j - 1, sum), coarser(i, j + 1, sum), within(int64_t(i) - 1, j, sum), within(int64_t(i) + 1, j, sum);
         }
-        if (count_ == 0) return 0;
-        return int32_t(sum_ >= 0 ? sum_ / count_ : -((-sum_ + count_ - 1) / count_));
+        if (sum.count == 0) return 0;
+        return int32_t(sum.heights >= 0 ? sum.heights / sum.count : -((-sum.heights + sum.count - 1) / sum.count));
     }
 
   private:
+    struct Sum {
+        int64_t heights = 0, count = 0;
+    };
+
     // A vertex of a coarser level: there in any case, but for those of the top block beside this one.
-    void coarser(uint32_t i, uint32_t j) { is_top_ ? within(i, j) : add(i, j); }
-    void within(int64_t i, int64_t j) {
+    void coarser(uint32_t i, uint32_t j, Sum& sum) const { is_top_ ? within(i, j, sum) : add(i, j, sum); }
+    void within(int64_t i, int64_t j, Sum& sum) const {
         bool inside = i >= int64_t(extent_.i_begin) && i < int64_t(extent_.i_end) && j >= int64_t(extent_.j_begin) && j < int64_t(extent_.j_end);
-        if (inside) add(uint32_t(i), uint32_t(j));
+        if (inside) add(uint32_t(i), uint32_t(j), sum);
     }
-    void add(uint32_t i, uint32_t j) {
+    void add(uint32_t i, uint32_t j, Sum& sum) const {
         uint64_t x = uint64_t(i) << extent_.level, y = uint64_t(j) << extent_.level;
         if (x >= terrain_.shape.width || y >= terrain_.shape.height) return;
         int32_t height = terrain_.heights[y * terrain_.shape.width + x];
         if (height == kVoid) return;
-        sum_ += height, ++count_;
+        sum.heights += height, ++sum.count;
     }
 
     const Terrain& terrain_;
     const Extent& extent_;
     bool is_top_;
-    int64_t sum_ = 0, count_ = 0;
+    ptrdiff_t step_x_, step_y_;  // to the next vertex of the level, in samples
 };
 
 // Calls visit(height index, prediction) for every sample of a block, in the order in which it stands in the file.
@@ -111,11 +152,17 @@ void visit_samples(const Terrain& terrain, const Block& block, const Visit& visi
         visit(index, last);
         if (terrain.heights[index] != kVoid) last = terrain.heights[index];
     });
-    for (const Extent& extent : extents_of(shape, block)) {
+    for (const Extent& whole : extents_of(shape, block)) {
+        Extent extent = on_raster(shape, whole);
         Predictor predictor(terrain, extent, block.is_top);
-        visit_vertices(extent, [&](uint32_t i, uint32_t j) {
-            uint64_t x = uint64_t(i) << extent.level, y = uint64_t(j) << extent.level;
-            if (x < shape.width && y < shape.height) visit(size_t(y * shape.width + x), predictor.at(i, j));
+        visit_runs(extent, [&](Run run) {
+            size_t row = (size_t(run.j) << extent.level) * shape.width;
+            auto [begin, end] = predictor.inner_columns(run.j);
+            for (uint32_t i = run.i; i < run.i_end; i += 2) {
+                size_t index = row + (size_t(i) << extent.level);
+                bool is_inner = i >= begin && i < end;
+                visit(index, is_inner ? predictor.at_inner(terrain.heights.data() + index, i, run.j) : predictor.at(i, run.j));
+            }
         });
     }
 }
@@ -125,7 +172,10 @@ template <class Terrain_, class Visit>
 void visit_codes(Terrain_& terrain, const Block& block, const Visit& visit) {
     for (const Extent& extent : extents_of(terrain.shape, block)) {
         uint32_t columns = level_grid(terrain.shape, extent.level).columns;
-        visit_vertices(extent, [&](uint32_t i, uint32_t j) { visit(terrain.codes[extent.level][size_t(j) * columns + i]); });
+        visit_runs(extent, [&](Run run) {
+            auto* row = terrain.codes[extent.level].data() + size_t(run.j) * columns;
+            for (uint32_t i = run.i; i < run.i_end; i += 2) visit(row[i]);
+        });
     }
 }
 
@@ -139,11 +189,10 @@ struct Counts {
 Counts counts_of(const Shape& shape, const Block& block) {
     Counts counts;
     visit_corners(shape, block, [&](uint32_t, uint32_t) { ++counts.samples; });
-    for (const Extent& extent : extents_of(shape, block))
-        visit_vertices(extent, [&](uint32_t i, uint32_t j) {
-            ++counts.codes;
-            counts.samples += (uint64_t(i) << extent.level) < shape.width && (uint64_t(j) << extent.level) < shape.height;
-        });
+    for (const Extent& extent : extents_of(shape, block)) {
+        counts.codes += vertex_count(extent);
+        counts.samples += vertex_count(on_raster(shape, extent));
+    }
     return counts;
 }
 
@@ -171,37 +220,43 @@ uint64_t block_count_of(const Shape& shape) {
 
 BlockRange range_of(const Terrain& terrain, const Block& block) {
     BlockRange range{std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::min()};
-    visit_samples(terrain, block, [&](size_t index, int32_t) {
-        int32_t height = terrain.heights[index];
+    auto add = [&](int32_t height) {
         if (height == kVoid) return;
         range.low = std::min(range.low, height), range.high = std::max(range.high, height);
-    });
+    };
+    const Shape& shape = terrain.shape;
+    visit_corners(shape, block, [&](uint32_t x, uint32_t y) { add(terrain.heights[size_t(y) * shape.width + x]); });
+    for (const Extent& extent : extents_of(shape, block))
+        visit_runs(on_raster(shape, extent), [&](Run run) {
+            const int32_t* row = terrain.heights.data() + (size_t(run.j) << extent.level) * shape.width;
+            for (uint32_t i = run.i; i < run.i_end; i += 2) add(row[size_t(i) << extent.level]);
+        });
     return range.low <= range.high ? range : BlockRange{};
 }
 
 std::vector<std::byte> pack_block(const Terrain& terrain, const Block& block) {
-    std::vector<uint8_t> void_bits;
+    Counts counts = counts_of(terrain.shape, block);
+    std::vector<std::byte> void_bits((counts.samples + 7) / 8, std::byte(0));
     std::vector<uint32_t> residuals;
-    uint64_t sample_count = 0;
-    bool has_voids = false;
+    residuals.reserve(counts.samples);
+    uint64_t sample = 0;
     uint32_t all_bits = 0;
     visit_samples(terrain, block, [&](size_t index, int32_t prediction) {
-        if (sample_count % 8 == 0) void_bits.push_back(0);
         int32_t height = terrain.heights[index];
         if (height == kVoid) {
-            void_bits.back() = uint8_t(void_bits.back() | 1u << (sample_count % 8));
-            has_voids = true;
+            void_bits[sample / 8] |= std::byte(1u << (sample % 8));
         } else {
             residuals.push_back(zigzag(height - prediction));
             all_bits |= residuals.back();
         }
-        ++sample_count;
+        ++sample;
     });
     uint32_t planes = all_bits >> 24 ? 4 : all_bits >> 16 ? 3 : all_bits >> 8 ? 2 : 1;
+    bool has_voids = residuals.size() < counts.samples;
 
     std::vector<std::byte> bytes{std::byte(planes), std::byte(has_voids), std::byte(0), std::byte(0)};
-    if (has_voids)
-        for (uint8_t bits : void_bits) bytes.push_back(std::byte(bits));
+    bytes.reserve(kHeadBytes + void_bits.size() + planes * residuals.size() + counts.codes);
+    if (has_voids) bytes.insert(bytes.end(), void_bits.begin(), void_bits.end());
     for (uint32_t plane = 0; plane < planes; ++plane)
         for (uint32_t residual : residuals) bytes.push_back(std::byte(residual >> (8 * plane) & 255));
     visit_codes(terrain, block, [&](uint8_t code) { bytes.push_back(std::byte(code)); });
@@ -219,28 +274,32 @@ const char* unpack_block(std::span<const std::byte> bytes, const Block& block, T
     uint64_t void_bytes = has_voids ? (counts.samples + 7) / 8 : 0;
     if (bytes.size() < kHeadBytes + void_bytes) return "is shorter than its map of voids";
     std::span<const std::byte> void_bits = bytes.subspan(kHeadBytes, void_bytes);
-    auto is_void = [&](uint64_t k) { return has_voids && (uint8_t(void_bits[k / 8]) >> (k % 8) & 1) != 0; };
-    uint64_t valid_count = 0;
-    for (uint64_t k = 0; k < counts.samples; ++k) valid_count += !is_void(k);
+    uint64_t void_count = 0;
+    for (std::byte bits : void_bits) void_count += uint64_t(std::popcount(uint8_t(bits)));
+    if (has_voids && counts.samples % 8 != 0 && uint8_t(void_bits.back()) >> (counts.samples % 8) != 0) return "marks voids after its last sample";
+    uint64_t valid_count = counts.samples - void_count;
     if (bytes.size() != kHeadBytes + void_bytes + planes * valid_count + counts.codes) return "has another length than its vertices need";
 
-    std::span<const std::byte> heights = bytes.subspan(kHeadBytes + void_bytes, planes * valid_count);
-    std::span<const std::byte> codes = bytes.subspan(kHeadBytes + void_bytes + planes * valid_count);
-    uint64_t sample = 0, valid = 0, code = 0;
+    std::vector<uint32_t> residuals(valid_count);
+    for (uint32_t plane = 0; plane < planes; ++plane) {
+        const std::byte* stored = bytes.data() + kHeadBytes + void_bytes + plane * valid_count;
+        for (uint64_t k = 0; k < valid_count; ++k) residuals[k] |= uint32_t(stored[k]) << (8 * plane);
+    }
+    uint64_t sample = 0;
+    const uint32_t* residual = residuals.data();
     bool in_range = true;
     visit_samples(terrain, block, [&](size_t index, int32_t prediction) {
-        if (is_void(sample++)) {
+        uint64_t k = sample++;
+        if (has_voids && (uint8_t(void_bits[k / 8]) >> (k % 8) & 1) != 0) {
             terrain.heights[index] = kVoid;
             return;
         }
-        uint32_t residual = 0;
-        for (uint32_t plane = 0; plane < planes; ++plane) residual |= uint32_t(heights[plane * valid_count + valid]) << (8 * plane);
-        ++valid;
-        int64_t height = int64_t(prediction) + unzigzag(residual);
+        int64_t height = int64_t(prediction) + unzigzag(*residual++);
         if (height > kHeightMax || height < -kHeightMax) in_range = false, height = 0;
         terrain.heights[index] = int32_t(height);
     });
-    visit_codes(terrain, block, [&](uint8_t& stored) { stored = uint8_t(codes[code++]); });
+    const std::byte* code = bytes.data() + kHeadBytes + void_bytes + planes * valid_count;
+    visit_codes(terrain, block, [&](uint8_t& stored) { stored = uint8_t(*code++); });
     return in_range ? nullptr : "has a height beyond 2^28 steps";
 }
 

@@ -23,6 +23,7 @@ constexpr size_t width = 0, height = 4, height_step_m = 8, height_offset_m = 16,
                  flags = 48, block_log2_max = 52, centre_latitude_deg = 56, centre_longitude_deg = 64, convergence_deg = 72,
                  scale_distortion = 80, void_count = 88, crs = 96, error_m = 128, bytes = 1152;
 }
+constexpr uint64_t kSamplesMax = uint64_t(1) << 31;
 constexpr size_t kCrsBytes = 32;
 constexpr uint32_t kIsGeoreferenced = 1;
 

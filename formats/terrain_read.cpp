@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <new>
 
 #include "formats/compression.h"
 #include "formats/parallel.h"
@@ -26,7 +27,7 @@ bool is_between(double value, double low, double high) { return value >= low && 
 // The fields of TINF that need no other section.
 Result<void> read_shape(const Reader& file, std::span<const std::byte> info, Terrain& terrain) {
     uint32_t width = load_le<uint32_t>(info, info_at::width), height = load_le<uint32_t>(info, info_at::height);
-    if (width < 2 || height < 2 || uint64_t(width) * height > uint64_t(1) << 31)
+    if (width < 2 || height < 2 || uint64_t(width) * height > kSamplesMax)
         return broken(file, 3, "a raster of {} x {} samples; at least 2 x 2 and at most 2^31 in all are allowed", width, height);
     terrain.shape = shape_of(width, height);
 
@@ -88,6 +89,7 @@ Result<std::vector<DirectoryEntry>> read_directory(const Reader& file, const Sec
     uint64_t count = block_count_of(shape);
     if (section.codec != container::Codec::none || section.raw_bytes != count * directory_at::entry_bytes)
         return broken(file, 9, "a directory of {} bytes; {} blocks need {}, uncompressed", section.raw_bytes, count, count * directory_at::entry_bytes);
+    if (blocks.codec != container::Codec::none) return broken(file, 10, "TBLK is compressed as a whole, its blocks must be one by one");
     auto bytes = file.read(section, section.raw_bytes);
     if (!bytes) return tl::unexpected(bytes.error());
 
@@ -168,9 +170,7 @@ Result<void> check_promises(const Reader& file, std::span<const std::byte> info,
     return {};
 }
 
-}  // namespace
-
-Result<Terrain> read(const Reader& file) {
+Result<Terrain> read_all(const Reader& file) {
     static constexpr container::Tag kKnown[] = {kInfoTag, kDirectoryTag, kBlocksTag, kTextureTag, container::tag("PROV")};
     const Section *info_section = file.find(kInfoTag), *directory = file.find(kDirectoryTag), *blocks = file.find(kBlocksTag);
     if (file.kind() != kKind || info_section == nullptr || directory == nullptr || blocks == nullptr)
@@ -197,6 +197,16 @@ Result<Terrain> read(const Reader& file) {
     if (const Section* texture = file.find(kTextureTag))
         if (auto ok = read_texture(file, *texture, terrain.texture); !ok) return tl::unexpected(ok.error());
     return terrain;
+}
+
+}  // namespace
+
+Result<Terrain> read(const Reader& file) {
+    try {
+        return read_all(file);
+    } catch (const std::bad_alloc&) {
+        return impossible("{}: there is not enough memory for this terrain", file.name());
+    }
 }
 
 Result<Terrain> read(const std::string& path) {

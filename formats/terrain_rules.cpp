@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 17> kRules{
     "Error codes 1 to 254 are finite and never below the one before; code 255 is infinite.",
     "Flags, reserved numbers and what follows the reference system's name are as documented; it is printable; the reference is a place on Earth.",
     "TDIR, uncompressed, has one entry of 32 bytes for each block that the raster's size asks for.",
-    "A block begins where the one before ends, and the last ends with TBLK.",
+    "TBLK, uncompressed, is its blocks: the first begins at 0, each where the one before ends, and the last ends with TBLK.",
     "A block's bytes match their checksum.",
     "A block decodes to exactly the bytes that its vertices need.",
     "A block's heights span exactly the range that its entry states.",

@@ -39,6 +39,24 @@ std::vector<std::byte> info_bytes(const Terrain& terrain) {
     return bytes;
 }
 
+// What no reader would take, if we made it; null if there is nothing.
+const char* fault_of(const Terrain& terrain) {
+    const Shape& shape = terrain.shape;
+    if (shape.width < 2 || shape.height < 2 || uint64_t(shape.width) * shape.height > kSamplesMax) return "a raster of too few or too many samples";
+    bool fits = terrain.heights.size() == uint64_t(shape.width) * shape.height && terrain.codes.size() == shape.root_log2;
+    for (uint32_t level = 0; fits && level < shape.root_log2; ++level) {
+        LevelGrid grid = level_grid(shape, level);
+        fits = terrain.codes[level].size() == uint64_t(grid.columns) * grid.rows;
+    }
+    if (!fits) return "heights or codes that do not fit the raster's size";
+    const std::string& crs = terrain.frame.crs;
+    bool is_plain = std::all_of(crs.begin(), crs.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    if (crs.size() > kCrsBytes || !is_plain) return "a reference system's name that is too long or not printable";
+    const ImageRgb8& texture = terrain.texture;
+    if (texture.pixels.size() != uint64_t(3) * texture.width * texture.height) return "a texture without all its pixels";
+    return nullptr;
+}
+
 struct PackedBlock {
     Result<std::vector<std::byte>> bytes;
     size_t raw_bytes = 0;
@@ -84,6 +102,7 @@ Result<void> write_texture(container::Writer& writer, const ImageRgb8& texture) 
 }  // namespace
 
 Result<void> write(container::Writer& writer, const Terrain& terrain) {
+    if (const char* fault = fault_of(terrain)) return tl::unexpected(Error{Exit::our_bug, fmt::format("a terrain to write has {}", fault)});
     if (auto added = writer.add(kInfoTag, kMustUnderstand, Codec::none, info_bytes(terrain)); !added) return added;
     std::vector<std::byte> directory;
     if (auto written = write_blocks(writer, terrain, directory); !written) return written;
