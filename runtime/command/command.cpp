@@ -7,6 +7,8 @@
 #include <new>
 
 #include "formats/parallel.h"
+#include "runtime/command/help.h"
+#include "runtime/command/memory.h"
 #include "runtime/command/options.h"
 #include "runtime/command/signals.h"
 
@@ -59,7 +61,7 @@ std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error) 
 // Returns the exit code of a command line that is not to be run.
 int answer_parse_error(CLI::App& app, const std::string& name, const CLI::ParseError& error) {
     if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
-        std::cout << app.help();
+        std::cout << wrapped_help(app.help());
         return flush_output(name, int(Exit::done));
     }
     if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
@@ -80,11 +82,14 @@ int run(CLI::App& app, Common& common, int argc, char** argv, const std::functio
         app.parse(argc, argv);
         name = full_name(app, argv[0]);
         set_thread_count(common.threads);
+        if (common.memory_bytes != 0) {
+            if (Result<void> kept = keep_memory_cap(common.memory_bytes); !kept) return fail(name, kept.error());
+        }
         return flush_output(name, body());
     } catch (const CLI::ParseError& error) {
         return answer_parse_error(app, full_name(app, argc > 0 ? argv[0] : nullptr), error);
     } catch (const std::bad_alloc&) {
-        return fail(name, Error{Exit::impossible, "out of memory"});
+        return fail(name, Error{Exit::impossible, common.memory_bytes != 0 ? "needs more than --memory allows" : "out of memory"});
     } catch (const std::exception& error) {
         return fail(name, Error{Exit::our_bug, std::string("internal error: ") + error.what()});
     } catch (...) {
