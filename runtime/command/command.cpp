@@ -48,8 +48,19 @@ int flush_output(const std::string& name, int exit_code) {
     return fail(name, Error{Exit::cannot_write, "standard output: cannot write" + reason});
 }
 
+// A command without its verb, or with one that is not there.
+std::string missing_verb_text(const CLI::App& app) {
+    std::string verbs;
+    for (const CLI::App* verb : app.get_subcommands(nullptr)) verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    std::vector<std::string> extras = app.remaining(true);
+    if (extras.empty()) return "a verb is wanted: " + verbs;
+    return "\"" + extras.front() + "\" is not one of its verbs: " + verbs;
+}
+
 std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error) {
     std::string text = error.what();
+    bool wants_verb = app.get_require_subcommand_min() > 0 && app.get_subcommands().empty();
+    if (wants_verb && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing_verb_text(app);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
     std::vector<std::string> extras = app.remaining(true);
     if (extras.empty()) return text;
