@@ -7,6 +7,8 @@
 #include <new>
 
 #include "formats/parallel.h"
+#include "runtime/command/help.h"
+#include "runtime/command/memory.h"
 #include "runtime/command/options.h"
 #include "runtime/command/signals.h"
 
@@ -46,8 +48,19 @@ int flush_output(const std::string& name, int exit_code) {
     return fail(name, Error{Exit::cannot_write, "standard output: cannot write" + reason});
 }
 
+// A command without its verb, or with one that is not there.
+std::string missing_verb_text(const CLI::App& app) {
+    std::string verbs;
+    for (const CLI::App* verb : app.get_subcommands(nullptr)) verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    std::vector<std::string> extras = app.remaining(true);
+    if (extras.empty()) return "a verb is wanted: " + verbs;
+    return "\"" + extras.front() + "\" is not one of its verbs: " + verbs;
+}
+
 std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error) {
     std::string text = error.what();
+    bool wants_verb = app.get_require_subcommand_min() > 0 && app.get_subcommands().empty();
+    if (wants_verb && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing_verb_text(app);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
     std::vector<std::string> extras = app.remaining(true);
     if (extras.empty()) return text;
@@ -59,7 +72,7 @@ std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error) 
 // Returns the exit code of a command line that is not to be run.
 int answer_parse_error(CLI::App& app, const std::string& name, const CLI::ParseError& error) {
     if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
-        std::cout << app.help();
+        std::cout << wrapped_help(app.help());
         return flush_output(name, int(Exit::done));
     }
     if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
@@ -80,11 +93,14 @@ int run(CLI::App& app, Common& common, int argc, char** argv, const std::functio
         app.parse(argc, argv);
         name = full_name(app, argv[0]);
         set_thread_count(common.threads);
+        if (common.memory_bytes != 0) {
+            if (Result<void> kept = keep_memory_cap(common.memory_bytes); !kept) return fail(name, kept.error());
+        }
         return flush_output(name, body());
     } catch (const CLI::ParseError& error) {
         return answer_parse_error(app, full_name(app, argc > 0 ? argv[0] : nullptr), error);
     } catch (const std::bad_alloc&) {
-        return fail(name, Error{Exit::impossible, "out of memory"});
+        return fail(name, Error{Exit::impossible, common.memory_bytes != 0 ? "needs more than --memory allows" : "out of memory"});
     } catch (const std::exception& error) {
         return fail(name, Error{Exit::our_bug, std::string("internal error: ") + error.what()});
     } catch (...) {

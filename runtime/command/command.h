@@ -28,6 +28,9 @@ constexpr Uses operator|(Uses a, Uses b) { return Uses(int(a) | int(b)); }
 // Adds --threads, --json, --quiet, --verbose, --progress, --config (and --seed, --memory where used) to a command.
 void add_common(CLI::App& app, Common& common, Uses uses = Uses::none);
 
+// For CLI::Option::check: a number from least to most. Unlike CLI::Range it refuses NaN: "--error-m: nan is not a number from 0 to 1e+06".
+CLI::Validator number_in(double least, double most);
+
 // Parses and runs: maps CLI11's errors to exit 2 with one line on stderr, --help and --version to 0; applies --threads;
 // installs the signal handlers that leave nothing half-written; catches what escapes as our bug (70).
 int run(CLI::App& app, Common& common, int argc, char** argv, const std::function<int()>& body);

@@ -125,6 +125,15 @@ std::string nearest_name(const CLI::App& app, const std::string& word) {
     return nearest;
 }
 
+CLI::Validator number_in(double least, double most) {
+    auto refusal = [least, most](const std::string& text) {
+        double number = 0;
+        bool is_in = CLI::detail::lexical_cast(text, number) && number >= least && number <= most;
+        return is_in ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, least, most);
+    };
+    return CLI::Validator(refusal, fmt::format("{:g}..{:g}", least, most), "number_in");
+}
+
 void add_common(CLI::App& app, Common& common, Uses uses) {
     constexpr unsigned kMostThreads = 4096;
     const char* const group = "Common options";

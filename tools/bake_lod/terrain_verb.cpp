@@ -1,5 +1,6 @@
 #include "tools/bake_lod/terrain_verb.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "formats/container.h"
@@ -26,6 +27,15 @@ Result<ImageRgb8> texture_of(const TerrainArgs& args, const dem::Raster& dem, co
     provenance.options.emplace_back("texture", bare_name);
     provenance.inputs.push_back({bare_name, content_hash(bytes->bytes())});
     return read_image_rgb8(args.texture);
+}
+
+// Writing over what is read is hardly ever meant, and would lose what verify needs.
+Result<void> check_output(const TerrainArgs& args) {
+    for (const std::string& input : {args.dem, args.texture}) {
+        std::error_code is_no_file;
+        if (std::filesystem::equivalent(input, args.output, is_no_file)) return bad_command("{}: is read and would be overwritten; give another --output", args.output);
+    }
+    return {};
 }
 
 Result<uint64_t> write_file(const std::string& path, const terrain::Terrain& terrain, const container::Provenance& provenance) {
@@ -68,11 +78,11 @@ CLI::App* add_terrain_verb(CLI::App& app, TerrainArgs& args, command::Common& co
     verb->add_option("--window", args.window, "Only this part: X,Y,W,H in samples from the north-west");
     verb->add_option("--texture", args.texture, "A picture over the whole raster (default: relief shaded from the heights)");
     verb->add_flag("--no-texture", args.no_texture, "No picture at all")->excludes("--texture");
-    verb->add_option("--cell-size-m", args.dem_options.cell_size_m, "Metres between samples, for files that do not say (PNG); overrides those that do")->check(CLI::Range(1e-6, 1e6));
-    verb->add_option("--height-scale-m", args.dem_options.height_scale_m, "Metres for each unit of stored height (default: the file's own, or 1)")->check(CLI::Range(1e-9, 1e6));
+    verb->add_option("--cell-size-m", args.dem_options.cell_size_m, "Metres between samples, for files that do not say (PNG); overrides those that do")->check(command::number_in(1e-6, 1e6));
+    verb->add_option("--height-scale-m", args.dem_options.height_scale_m, "Metres for each unit of stored height (default: the file's own, or 1)")->check(command::number_in(1e-9, 1e6));
     verb->add_option("--nodata", args.dem_options.nodata, "A stored value that means \"no data\" (default: the file's own)");
     verb->add_option("--height-step-m", args.bake.height_step_m, "Store heights in steps of this many metres (default: whole numbers exactly, others to 1/1024 m); the rounding counts towards every error")
-        ->check(CLI::Range(1e-6, 1e4));
+        ->check(command::number_in(1e-6, 1e4));
     command::add_common(*verb, common, command::Uses::memory);
     return verb;
 }
@@ -83,6 +93,7 @@ int bake_terrain(TerrainArgs args, const command::Common& common) {
         if (!window) return command::fail(kName, window.error());
         args.dem_options.window = *window;
     }
+    if (auto checked = check_output(args); !checked) return command::fail(kName, checked.error());
     auto begin = std::chrono::steady_clock::now();
     auto dem = dem::open(args.dem, args.dem_options);
     if (!dem) return command::fail(kName, dem.error());
