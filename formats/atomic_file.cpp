@@ -90,7 +90,9 @@ int sync_folder(const std::string& folder) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept { *this = std::move(other); }
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept {
+    *this = std::move(other);
+}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);

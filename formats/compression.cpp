@@ -10,9 +10,9 @@
 namespace overlook {
 
 Result<std::vector<std::byte>> zstd_compressed(const std::string& name, std::span<const std::byte> raw) {
-    // Baked numbers are residuals of a prediction: there is little to match, only to code. Of 1,201 x 1,201 heights (SRTM N44W072) as
-    // planar residuals, level 1 leaves 713,134 bytes at 507 MB/s, level 9 762,728 at 72 MB/s, level 16 712,531 at 5 MB/s, and what
-    // level 1 wrote decodes at twice the speed of level 9 (zstd 1.5.4).
+    // Baked numbers are residuals of a prediction: there is little to match, only to code. Of 1,201 x 1,201 heights (SRTM
+    // N44W072) as planar residuals, level 1 leaves 713,134 bytes at 507 MB/s, level 9 762,728 at 72 MB/s, level 16 712,531 at 5
+    // MB/s, and what level 1 wrote decodes at twice the speed of level 9 (zstd 1.5.4).
     constexpr int kZstdLevel = 1;
 
     std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);

@@ -15,8 +15,9 @@ namespace overlook {
 // raw may be empty. Fails with Exit::impossible: "NAME: there is not enough memory to compress 4,096 bytes".
 Result<std::vector<std::byte>> zstd_compressed(const std::string& name, std::span<const std::byte> raw);
 
-// Why `stored` cannot be exactly one zstd frame of raw_bytes of content; empty if it may be. Allocates nothing. stored and raw_bytes
-// may be hostile: besides the frame's own words, a frame never expands more than its blocks can (128 KiB from each 4 bytes).
+// Why `stored` cannot be exactly one zstd frame of raw_bytes of content; empty if it may be. Allocates nothing. stored and
+// raw_bytes may be hostile: besides the frame's own words, a frame never expands more than its blocks can (128 KiB from each 4
+// bytes).
 std::string fault_of_zstd_frame(std::span<const std::byte> stored, uint64_t raw_bytes);
 
 // Decodes one frame into exactly `raw`. Returns zstd's reason if it cannot; empty if all is well.

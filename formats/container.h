@@ -59,8 +59,8 @@ struct InputIdentity {
     std::string hash;  // XXH3-128 of the bytes, 32 hex digits
 };
 struct Provenance {
-    std::string program;   // "bake-lod terrain"
-    std::string version;   // of Overlook
+    std::string program;                                       // "bake-lod terrain"
+    std::string version;                                       // of Overlook
     std::vector<std::pair<std::string, std::string>> options;  // those that decide the bytes; kept sorted by name, no name twice
     std::vector<InputIdentity> inputs;
 };
@@ -106,11 +106,11 @@ class Writer {
     std::unique_ptr<HashState, HashStateDeleter> open_hash_;  // null unless a section is begun
 };
 
-// A baked file, mapped. open() checks header, table and padding (rules C1..C18 of the document) and nothing of the sections' bytes;
-// those are checked when they are asked for (C19..C23). The file may be hostile; every failure of form is Exit::bad_input and names
-// file, rule and place: "valley.ovl: C4: the file is 4,096 bytes long, its header says 8,192; was the copy cut short?"
-// The file must not be shortened while it is mapped: the system would end the process (SIGBUS). Overlook's writers never do that, they
-// put a new file in the old one's place.
+// A baked file, mapped. open() checks header, table and padding (rules C1..C18 of the document) and nothing of the sections'
+// bytes; those are checked when they are asked for (C19..C23). The file may be hostile; every failure of form is Exit::bad_input
+// and names file, rule and place: "valley.ovl: C4: the file is 4,096 bytes long, its header says 8,192; was the copy cut short?"
+// The file must not be shortened while it is mapped: the system would end the process (SIGBUS). Overlook's writers never do that,
+// they put a new file in the old one's place.
 class Reader {
   public:
     static Result<Reader> open(const std::string& path);
@@ -145,7 +145,8 @@ class Reader {
     std::vector<Section> sections_;
 };
 
-// What each rule says in a sentence, for messages, documents and tests: rule_text(5) is the sentence of C5; empty if there is none.
+// What each rule says in a sentence, for messages, documents and tests: rule_text(5) is the sentence of C5; empty if there is
+// none.
 std::string_view rule_text(int rule);
 int rule_count();
 

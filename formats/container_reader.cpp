@@ -15,9 +15,8 @@ bool is_zero(Bytes bytes) {
 }
 
 bool begins_with(Bytes bytes, std::string_view text) {
-    return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin(), [](char c, std::byte b) {
-               return std::byte(c) == b;
-           });
+    return bytes.size() >= text.size() &&
+           std::equal(text.begin(), text.end(), bytes.begin(), [](char c, std::byte b) { return std::byte(c) == b; });
 }
 
 // "section 2 (NOTE)", counted from 1.
@@ -52,8 +51,8 @@ Result<void> check_header(Bytes bytes, const std::string& name) {
     auto checksum = load_le<uint64_t>(bytes, header_at::checksum);
     uint64_t measured = checksum_of_head(bytes.first(kFirstSectionOffset));
     if (checksum != measured) {
-        return broken(5, name, "header and table have checksum {:016x}, the header says {:016x}; copy or bake the file again", measured,
-                      checksum);
+        return broken(5, name, "header and table have checksum {:016x}, the header says {:016x}; copy or bake the file again",
+                      measured, checksum);
     }
     auto count = load_le<uint32_t>(bytes, header_at::section_count);
     if (count > kMaxSections) {
@@ -79,7 +78,8 @@ Result<void> check_reserved_and_tags(Bytes bytes, std::span<const Section> secti
     }
     if (!is_printable(kind)) return broken(8, name, "the kind {:08x} is not printable", kind);
     for (size_t i = 0; i < sections.size(); i++) {
-        if (!is_printable(sections[i].tag)) return broken(8, name, "the tag {:08x} of section {} is not printable", sections[i].tag, i + 1);
+        if (!is_printable(sections[i].tag))
+            return broken(8, name, "the tag {:08x} of section {} is not printable", sections[i].tag, i + 1);
     }
     return {};
 }
@@ -91,7 +91,8 @@ Result<void> check_meaning(size_t index, const Section& section, const std::stri
         return broken(10, name, "{} has flags {:#x}, known are 1 and 2", place, section.flags);
     }
     if (section.codec != Codec::none && section.codec != Codec::zstd) {
-        return broken(11, name, "{} has codec {}, known are 0 and 1; a newer Overlook may read it", place, uint32_t(section.codec));
+        return broken(11, name, "{} has codec {}, known are 0 and 1; a newer Overlook may read it", place,
+                      uint32_t(section.codec));
     }
     if ((section.flags & kCheckedInParts) != 0 && section.codec != Codec::none) {
         return broken(12, name, "{} is checked in parts and has codec {}", place, uint32_t(section.codec));

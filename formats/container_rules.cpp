@@ -46,7 +46,9 @@ std::string_view rule_text(int rule) {
     return rule >= 1 && rule <= rule_count() ? kRules[size_t(rule - 1)] : std::string_view();
 }
 
-int rule_count() { return int(kRules.size()); }
+int rule_count() {
+    return int(kRules.size());
+}
 
 bool is_printable(Tag tag) {
     for (int shift = 0; shift < 32; shift += 8) {
@@ -65,7 +67,9 @@ std::string tag_text(Tag tag) {
     return text;
 }
 
-uint64_t checksum_of(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+uint64_t checksum_of(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
 
 uint64_t checksum_of_head(std::span<const std::byte> head) {
     std::array<std::byte, kFirstSectionOffset> copy;

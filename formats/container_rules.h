@@ -26,7 +26,9 @@ constexpr size_t tag = 0, flags = 4, offset = 8, stored_bytes = 16, raw_bytes = 
                  reserved = 48;
 }
 
-constexpr uint64_t padded(uint64_t bytes) { return (bytes + (kAlignment - 1)) / kAlignment * kAlignment; }
+constexpr uint64_t padded(uint64_t bytes) {
+    return (bytes + (kAlignment - 1)) / kAlignment * kAlignment;
+}
 
 // Whether all four bytes are printable ASCII, space to '~'.
 bool is_printable(Tag tag);

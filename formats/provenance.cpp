@@ -10,7 +10,9 @@ namespace {
 using nlohmann::json;  // keeps the keys of an object in order
 using Reason = tl::unexpected<std::string>;
 
-std::string canonical(const json& document) { return document.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string canonical(const json& document) {
+    return document.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 bool has_exactly_keys(const json& value, std::initializer_list<const char*> keys) {
     return value.is_object() && value.size() == keys.size() &&
@@ -21,7 +23,9 @@ bool is_hash(const std::string& text) {
     return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-bool is_bare_name(const std::string& text) { return !text.empty() && text.find('/') == std::string::npos; }
+bool is_bare_name(const std::string& text) {
+    return !text.empty() && text.find('/') == std::string::npos;
+}
 
 // Why a document is not provenance; empty if it is. Leaves no value deeper than three levels, so that walking it is safe.
 std::string fault_of(const json& document) {
@@ -68,7 +72,8 @@ tl::expected<Provenance, std::string> provenance_from_json(std::string_view text
     json document = json::parse(text, nullptr, false);  // false: a discarded value instead of an exception
     if (document.is_discarded()) return Reason("it is not JSON");
     if (std::string fault = fault_of(document); !fault.empty()) return Reason(fault);
-    if (canonical(document) != text) return Reason("its JSON is not in canonical form (keys in order, no key twice, no white space)");
+    if (canonical(document) != text)
+        return Reason("its JSON is not in canonical form (keys in order, no key twice, no white space)");
 
     Provenance provenance;
     provenance.program = document["program"].get<std::string>();

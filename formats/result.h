@@ -12,11 +12,11 @@ namespace overlook {
 // The exit codes of every command. A library chooses one by the cause; a command only passes it on.
 enum class Exit : int {
     done = 0,
-    answer_is_no = 1,   // verify, diff: the question was understood and the answer is no
-    bad_command = 2,    // the command line makes no sense
-    bad_input = 3,      // an input is missing, unreadable or breaks its form
-    cannot_write = 4,   // an output cannot be written
-    impossible = 5,     // cannot be done within the limits asked
+    answer_is_no = 1,  // verify, diff: the question was understood and the answer is no
+    bad_command = 2,   // the command line makes no sense
+    bad_input = 3,     // an input is missing, unreadable or breaks its form
+    cannot_write = 4,  // an output cannot be written
+    impossible = 5,    // cannot be done within the limits asked
     our_bug = 70,
 };
 

@@ -22,7 +22,7 @@ namespace overlook::terrain {
 
 constexpr container::Tag kKind = container::tag("TERR");
 constexpr int32_t kVoid = std::numeric_limits<int32_t>::min();  // a height that is not there
-constexpr uint8_t kMustSplit = 255;  // error code of a diamond that covers a void: never drawn unsplit
+constexpr uint8_t kMustSplit = 255;                             // error code of a diamond that covers a void: never drawn unsplit
 
 // Where a raster lies: a flat metric frame, x = column * metres_per_column (to the right of the raster), y = -row *
 // metres_per_row (up the raster), z = height in metres; its origin is the raster's first sample.
@@ -33,16 +33,17 @@ struct Frame {
     // Below only if georeferenced: of the raster's middle.
     double centre_latitude_deg = 0;
     double centre_longitude_deg = 0;
-    double convergence_deg = 0;     // clockwise turn from true north to the raster's up
-    double scale_distortion = 0;    // greatest relative error of the two metre figures anywhere in the raster
-    std::string crs;                // "EPSG:4326", or empty
+    double convergence_deg = 0;   // clockwise turn from true north to the raster's up
+    double scale_distortion = 0;  // greatest relative error of the two metre figures anywhere in the raster
+    std::string crs;              // "EPSG:4326", or empty
 };
 
-// The shape of the hierarchy, which follows from the raster's size alone. A split vertex has the level of the lowest set bit of x | y:
-// at level t, with s = 2^t, its diamond's long side is 2s (or the diagonal of a square of side 2s).
+// The shape of the hierarchy, which follows from the raster's size alone. A split vertex has the level of the lowest set bit of x
+// | y: at level t, with s = 2^t, its diamond's long side is 2s (or the diagonal of a square of side 2s).
 struct Shape {
-    uint32_t width = 0, height = 0;            // samples, >= 2 each
-    uint32_t root_log2 = 0;                    // a root square spans 2^root_log2 cells, the least that covers the shorter side; also the count of levels
+    uint32_t width = 0, height = 0;  // samples, >= 2 each
+    uint32_t root_log2 =
+        0;  // a root square spans 2^root_log2 cells, the least that covers the shorter side; also the count of levels
     uint32_t root_columns = 0, root_rows = 0;  // root squares, enough to cover the raster
 
     uint32_t cells_x() const { return root_columns << root_log2; }  // virtual cells
@@ -50,8 +51,8 @@ struct Shape {
 };
 Shape shape_of(uint32_t width, uint32_t height);
 
-// The vertices of one level: every 2^level cells, as far as any diamond of that level reaches over the raster. Vertex (x, y) has index
-// (y >> level) * columns + (x >> level).
+// The vertices of one level: every 2^level cells, as far as any diamond of that level reaches over the raster. Vertex (x, y) has
+// index (y >> level) * columns + (x >> level).
 struct LevelGrid {
     uint32_t columns = 0, rows = 0;  // odd
 };
@@ -61,18 +62,18 @@ LevelGrid level_grid(const Shape& shape, uint32_t level);
 struct Terrain {
     Shape shape;
     Frame frame;
-    double height_step_m = 1;     // height_m = height_offset_m + height_step_m * heights[i]
+    double height_step_m = 1;  // height_m = height_offset_m + height_step_m * heights[i]
     double height_offset_m = 0;
-    double finest_error_m = 0;    // greatest distance of a stored height from its source sample
-    std::vector<int32_t> heights; // [height, width] row-major, north first; kVoid = no data
+    double finest_error_m = 0;     // greatest distance of a stored height from its source sample
+    std::vector<int32_t> heights;  // [height, width] row-major, north first; kVoid = no data
 
-    // error_m[codes[t][i]] bounds the vertical distance in metres between a diamond left unsplit and every source sample that it covers,
-    // and the same of all its descendants. error_m[0] = finest_error_m; increasing; error_m[kMustSplit] = infinity.
+    // error_m[codes[t][i]] bounds the vertical distance in metres between a diamond left unsplit and every source sample that it
+    // covers, and the same of all its descendants. error_m[0] = finest_error_m; increasing; error_m[kMustSplit] = infinity.
     std::array<float, 256> error_m{};
     // One grid a level, root_log2 of them. Entries whose two grid coordinates are both even belong to a coarser level and are 0.
     std::vector<std::vector<uint8_t>> codes;
 
-    ImageRgb8 texture;            // over the whole raster; may be empty
+    ImageRgb8 texture;  // over the whole raster; may be empty
 
     bool is_void(uint32_t column, uint32_t row) const { return heights[size_t(row) * shape.width + column] == kVoid; }
     double height_m(uint32_t column, uint32_t row) const {

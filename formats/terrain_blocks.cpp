@@ -11,14 +11,19 @@ namespace {
 
 constexpr size_t kHeadBytes = 4;  // planes, has_voids, two reserved
 
-uint32_t top_level(const Shape& shape) { return shape.root_log2 - std::min(shape.root_log2, kBlockLog2Max); }
-uint32_t block_log2(const Shape& shape) { return std::min(shape.root_log2, kBlockLog2Max); }
+uint32_t top_level(const Shape& shape) {
+    return shape.root_log2 - std::min(shape.root_log2, kBlockLog2Max);
+}
+uint32_t block_log2(const Shape& shape) {
+    return std::min(shape.root_log2, kBlockLog2Max);
+}
 
 uint32_t blocks_along(uint32_t samples, uint32_t span_log2) {
     return uint32_t((uint64_t(samples) - 1 + (uint64_t(1) << span_log2) - 1) >> span_log2);
 }
 
-// The grid of a level from which a block takes its vertices: [i_begin, i_end) x [j_begin, j_end). The last block of a row or column holds all that is left.
+// The grid of a level from which a block takes its vertices: [i_begin, i_end) x [j_begin, j_end). The last block of a row or
+// column holds all that is left.
 struct Extent {
     uint32_t level, i_begin, i_end, j_begin, j_end;
 };
@@ -26,9 +31,11 @@ struct Extent {
 Extent extent_of(const Shape& shape, const Block& block, uint32_t level) {
     LevelGrid grid = level_grid(shape, level);
     uint32_t span_log2 = block_log2(shape) + block.level, side = span_log2 - level;
-    bool is_last_x = block.bx + 1 == blocks_along(shape.width, span_log2), is_last_y = block.by + 1 == blocks_along(shape.height, span_log2);
-    return {level, std::min(block.bx << side, grid.columns), is_last_x ? grid.columns : std::min((block.bx + 1) << side, grid.columns),
-            std::min(block.by << side, grid.rows), is_last_y ? grid.rows : std::min((block.by + 1) << side, grid.rows)};
+    bool is_last_x = block.bx + 1 == blocks_along(shape.width, span_log2),
+         is_last_y = block.by + 1 == blocks_along(shape.height, span_log2);
+    return {level, std::min(block.bx << side, grid.columns),
+            is_last_x ? grid.columns : std::min((block.bx + 1) << side, grid.columns), std::min(block.by << side, grid.rows),
+            is_last_y ? grid.rows : std::min((block.by + 1) << side, grid.rows)};
 }
 
 // The levels whose vertices a block holds, coarse to fine.
@@ -57,7 +64,8 @@ struct Run {
 template <class Visit>
 void visit_runs(const Extent& extent, const Visit& visit) {
     auto first_from = [](uint32_t begin, uint32_t parity) { return begin + ((begin ^ parity) & 1); };
-    for (uint32_t j = first_from(extent.j_begin, 1); j < extent.j_end; j += 2) visit(Run{j, first_from(extent.i_begin, 1), extent.i_end});
+    for (uint32_t j = first_from(extent.j_begin, 1); j < extent.j_end; j += 2)
+        visit(Run{j, first_from(extent.i_begin, 1), extent.i_end});
     for (uint32_t j = extent.j_begin; j < extent.j_end; ++j) visit(Run{j, first_from(extent.i_begin, (j + 1) & 1), extent.i_end});
 }
 
@@ -82,12 +90,17 @@ void visit_corners(const Shape& shape, const Block& block, const Visit& visit) {
         }
 }
 
-// A rounded-down mean of the neighbours that are already there: of a square its corners, of an edge its ends and, within the block, the middles of the squares beside it.
+// A rounded-down mean of the neighbours that are already there: of a square its corners, of an edge its ends and, within the
+// block, the middles of the squares beside it.
 class Predictor {
   public:
     // `extent` is one on the raster.
     Predictor(const Terrain& terrain, const Extent& extent, bool is_top)
-        : terrain_(terrain), extent_(extent), is_top_(is_top), step_x_(ptrdiff_t(1) << extent.level), step_y_(step_x_ * terrain.shape.width) {}
+        : terrain_(terrain),
+          extent_(extent),
+          is_top_(is_top),
+          step_x_(ptrdiff_t(1) << extent.level),
+          step_y_(step_x_ * terrain.shape.width) {}
 
     // Where all four neighbours of a vertex of row j are within the block: columns [begin, end), none if end <= begin.
     std::pair<uint32_t, uint32_t> inner_columns(uint32_t j) const {
@@ -125,7 +138,8 @@ class Predictor {
     // A vertex of a coarser level: there in any case, but for those of the top block beside this one.
     void coarser(uint32_t i, uint32_t j, Sum& sum) const { is_top_ ? within(i, j, sum) : add(i, j, sum); }
     void within(int64_t i, int64_t j, Sum& sum) const {
-        bool inside = i >= int64_t(extent_.i_begin) && i < int64_t(extent_.i_end) && j >= int64_t(extent_.j_begin) && j < int64_t(extent_.j_end);
+        bool inside = i >= int64_t(extent_.i_begin) && i < int64_t(extent_.i_end) && j >= int64_t(extent_.j_begin) &&
+                      j < int64_t(extent_.j_end);
         if (inside) add(uint32_t(i), uint32_t(j), sum);
     }
     void add(uint32_t i, uint32_t j, Sum& sum) const {
@@ -179,8 +193,12 @@ void visit_codes(Terrain_& terrain, const Block& block, const Visit& visit) {
     }
 }
 
-uint32_t zigzag(int32_t value) { return (uint32_t(value) << 1) ^ uint32_t(value >> 31); }
-int32_t unzigzag(uint32_t value) { return int32_t((value >> 1) ^ (0u - (value & 1))); }
+uint32_t zigzag(int32_t value) {
+    return (uint32_t(value) << 1) ^ uint32_t(value >> 31);
+}
+int32_t unzigzag(uint32_t value) {
+    return int32_t((value >> 1) ^ (0u - (value & 1)));
+}
 
 struct Counts {
     uint64_t samples = 0, codes = 0;
@@ -268,7 +286,8 @@ const char* unpack_block(std::span<const std::byte> bytes, const Block& block, T
     if (bytes.size() < kHeadBytes) return "is shorter than its head";
     uint32_t planes = uint32_t(bytes[0]);
     if (planes < 1 || planes > 4) return "has a count of height planes outside 1..4";
-    if (uint8_t(bytes[1]) > 1 || bytes[2] != std::byte(0) || bytes[3] != std::byte(0)) return "has reserved bits that are not zero";
+    if (uint8_t(bytes[1]) > 1 || bytes[2] != std::byte(0) || bytes[3] != std::byte(0))
+        return "has reserved bits that are not zero";
     bool has_voids = bytes[1] == std::byte(1);
 
     uint64_t void_bytes = has_voids ? (counts.samples + 7) / 8 : 0;
@@ -276,9 +295,11 @@ const char* unpack_block(std::span<const std::byte> bytes, const Block& block, T
     std::span<const std::byte> void_bits = bytes.subspan(kHeadBytes, void_bytes);
     uint64_t void_count = 0;
     for (std::byte bits : void_bits) void_count += uint64_t(std::popcount(uint8_t(bits)));
-    if (has_voids && counts.samples % 8 != 0 && uint8_t(void_bits.back()) >> (counts.samples % 8) != 0) return "marks voids after its last sample";
+    if (has_voids && counts.samples % 8 != 0 && uint8_t(void_bits.back()) >> (counts.samples % 8) != 0)
+        return "marks voids after its last sample";
     uint64_t valid_count = counts.samples - void_count;
-    if (bytes.size() != kHeadBytes + void_bytes + planes * valid_count + counts.codes) return "has another length than its vertices need";
+    if (bytes.size() != kHeadBytes + void_bytes + planes * valid_count + counts.codes)
+        return "has another length than its vertices need";
 
     std::vector<uint32_t> residuals(valid_count);
     for (uint32_t plane = 0; plane < planes; ++plane) {

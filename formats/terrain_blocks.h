@@ -1,4 +1,5 @@
-// How the heights and error codes of a terrain are cut into blocks that stream coarse to fine, and packed: see formats/spec/terrain.md.
+// How the heights and error codes of a terrain are cut into blocks that stream coarse to fine, and packed: see
+// formats/spec/terrain.md.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +11,11 @@
 
 namespace overlook::terrain {
 
-constexpr uint32_t kBlockLog2Max = 7;  // a block spans up to 128 vertices of its level each way, one more at the raster's end
+constexpr uint32_t kBlockLog2Max = 7;    // a block spans up to 128 vertices of its level each way, one more at the raster's end
 constexpr int32_t kHeightMax = 1 << 28;  // |height in steps|
 
-// Which vertices a block holds: of the grid of its level, columns [i_begin, i_end) and rows [j_begin, j_end), those that no coarser level has;
-// a block of the coarsest stage (`is_top`) holds what all levels from `level` up have there.
+// Which vertices a block holds: of the grid of its level, columns [i_begin, i_end) and rows [j_begin, j_end), those that no
+// coarser level has; a block of the coarsest stage (`is_top`) holds what all levels from `level` up have there.
 struct Block {
     uint32_t level = 0;
     uint32_t bx = 0, by = 0;
@@ -35,7 +36,8 @@ BlockRange range_of(const Terrain& terrain, const Block& block);
 // The block's bytes before compression. All coarser blocks are read from `terrain` as prediction.
 std::vector<std::byte> pack_block(const Terrain& terrain, const Block& block);
 
-// The reverse, into `terrain`, whose coarser blocks are unpacked already; the bytes may be hostile. Returns null, or what is wrong.
+// The reverse, into `terrain`, whose coarser blocks are unpacked already; the bytes may be hostile. Returns null, or what is
+// wrong.
 const char* unpack_block(std::span<const std::byte> bytes, const Block& block, Terrain& terrain);
 
 // The greatest size pack_block can give.

@@ -18,8 +18,11 @@ constexpr size_t kRowsAtATime = 32;
 // The codes of one level, and what lies well within the raster there: no triangle is squeezed, every apex is in the grid.
 struct Level {
     Level(const Terrain& terrain, uint32_t log2)
-        : level(log2), grid(level_grid(terrain.shape, log2)), codes(terrain.codes[log2].data()),
-          inner_columns((terrain.shape.width - 1) >> log2), inner_rows((terrain.shape.height - 1) >> log2) {}
+        : level(log2),
+          grid(level_grid(terrain.shape, log2)),
+          codes(terrain.codes[log2].data()),
+          inner_columns((terrain.shape.width - 1) >> log2),
+          inner_rows((terrain.shape.height - 1) >> log2) {}
 
     uint32_t level;
     LevelGrid grid;
@@ -36,13 +39,15 @@ uint8_t code_at(const Level& level, uint32_t x, uint32_t y) {
     return i < level.grid.columns && j < level.grid.rows ? level.at(i, j) : kMustSplit;
 }
 
-// The least code of the diamonds whose split vertices are the apexes of this one's triangles: a square's on the next level, an edge's on its own.
+// The least code of the diamonds whose split vertices are the apexes of this one's triangles: a square's on the next level, an
+// edge's on its own.
 uint8_t least_parent_code(const Shape& shape, uint32_t x, uint32_t y, uint32_t level, const Level& parents) {
     Triangle triangles[2];
     int count = triangles_of_diamond(shape, x, y, level, triangles);
     uint8_t least = kMustSplit;
     for (int i = 0; i < count; ++i)
-        if (!is_degenerate(shape, triangles[i])) least = std::min(least, code_at(parents, triangles[i].apex.x, triangles[i].apex.y));
+        if (!is_degenerate(shape, triangles[i]))
+            least = std::min(least, code_at(parents, triangles[i].apex.x, triangles[i].apex.y));
     return least;
 }
 
@@ -106,7 +111,8 @@ std::optional<DiamondPlace> find_code_above_parent(const Terrain& terrain) {
             uint8_t code = own.at(i, j);
             bool is_square = (i & j & 1) != 0;
             if (code == 0 || (is_square && is_coarsest)) return false;
-            if (own.is_inner(i, j)) return code > (is_square ? least_parent_of_square(coarser, i, j) : least_parent_of_edge(own, i, j));
+            if (own.is_inner(i, j))
+                return code > (is_square ? least_parent_of_square(coarser, i, j) : least_parent_of_edge(own, i, j));
             return code > least_parent_code(shape, i << t, j << t, t, is_square ? coarser : own);
         });
         if (place) return place;
@@ -128,6 +134,8 @@ float float_at_least(double value) {
     return double(nearest) < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
 
-uint64_t block_checksum(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+uint64_t block_checksum(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
 
 }  // namespace overlook::terrain

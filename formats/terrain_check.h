@@ -11,11 +11,12 @@ struct DiamondPlace {
     uint32_t x = 0, y = 0, level = 0;  // of its split vertex, virtual
 };
 
-// The first diamond (coarse to fine) whose error code is above that of a diamond that must be split before it; none in a sound terrain.
+// The first diamond (coarse to fine) whose error code is above that of a diamond that must be split before it; none in a sound
+// terrain.
 std::optional<DiamondPlace> find_code_above_parent(const Terrain& terrain);
 
-// The first diamond of level 0, or lone finest triangle, that covers a void without being marked kMustSplit. With nested codes none at level 0 means
-// none at any: whatever covers a void splits, at last, into one of level 0 that does.
+// The first diamond of level 0, or lone finest triangle, that covers a void without being marked kMustSplit. With nested codes
+// none at level 0 means none at any: whatever covers a void splits, at last, into one of level 0 that does.
 std::optional<DiamondPlace> find_unmarked_void(const Terrain& terrain);
 
 // The least float that is not below a value.

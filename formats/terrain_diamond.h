@@ -17,8 +17,9 @@ struct Triangle {
     GridPoint apex, left, right;
 };
 
-// A split vertex at level L with s = 2^L lies either in the middle of a square of side 2s (x/s and y/s odd; the long side is that square's
-// diagonal) or in the middle of an edge between two such squares (one of x/s, y/s odd; the long side has length 2s along that axis).
+// A split vertex at level L with s = 2^L lies either in the middle of a square of side 2s (x/s and y/s odd; the long side is that
+// square's diagonal) or in the middle of an edge between two such squares (one of x/s, y/s odd; the long side has length 2s along
+// that axis).
 enum class DiamondKind { square, horizontal_edge, vertical_edge };
 
 inline DiamondKind diamond_kind(uint32_t x, uint32_t y, uint32_t level) {
@@ -27,11 +28,14 @@ inline DiamondKind diamond_kind(uint32_t x, uint32_t y, uint32_t level) {
     return x_is_odd ? DiamondKind::horizontal_edge : DiamondKind::vertical_edge;
 }
 
-// Does the diagonal of the square of side `2^side_log2` at square coordinates (i, j) run from its north-west to its south-east corner? It
-// passes through the corner whose coordinates, in units of the side, are both odd.
-inline bool is_main_diagonal(uint32_t i, uint32_t j) { return ((i ^ j) & 1) == 0; }
+// Does the diagonal of the square of side `2^side_log2` at square coordinates (i, j) run from its north-west to its south-east
+// corner? It passes through the corner whose coordinates, in units of the side, are both odd.
+inline bool is_main_diagonal(uint32_t i, uint32_t j) {
+    return ((i ^ j) & 1) == 0;
+}
 
-// The triangles of the diamond split at (x, y) of `level`, one or two (an edge on the border of the virtual grid has one). Returns the count.
+// The triangles of the diamond split at (x, y) of `level`, one or two (an edge on the border of the virtual grid has one).
+// Returns the count.
 int triangles_of_diamond(const Shape& shape, uint32_t x, uint32_t y, uint32_t level, Triangle out[2]);
 
 // The raster sample on which a virtual vertex stands.

@@ -19,9 +19,9 @@ constexpr container::Tag kTextureTag = container::tag("TTEX");
 
 // Offsets within TINF, in bytes.
 namespace info_at {
-constexpr size_t width = 0, height = 4, height_step_m = 8, height_offset_m = 16, finest_error_m = 24, metres_per_column = 32, metres_per_row = 40,
-                 flags = 48, block_log2_max = 52, centre_latitude_deg = 56, centre_longitude_deg = 64, convergence_deg = 72,
-                 scale_distortion = 80, void_count = 88, crs = 96, error_m = 128, bytes = 1152;
+constexpr size_t width = 0, height = 4, height_step_m = 8, height_offset_m = 16, finest_error_m = 24, metres_per_column = 32,
+                 metres_per_row = 40, flags = 48, block_log2_max = 52, centre_latitude_deg = 56, centre_longitude_deg = 64,
+                 convergence_deg = 72, scale_distortion = 80, void_count = 88, crs = 96, error_m = 128, bytes = 1152;
 }
 constexpr uint64_t kSamplesMax = uint64_t(1) << 31;
 constexpr size_t kCrsBytes = 32;
@@ -36,10 +36,18 @@ constexpr size_t offset = 0, stored_bytes = 8, raw_bytes = 12, checksum = 16, lo
 constexpr size_t kTextureHeadBytes = 8;
 constexpr uint32_t kTextureSideMax = 32768;
 
-inline void store_f64(std::span<std::byte> bytes, size_t offset, double value) { store_le<uint64_t>(bytes, offset, std::bit_cast<uint64_t>(value)); }
-inline void store_f32(std::span<std::byte> bytes, size_t offset, float value) { store_le<uint32_t>(bytes, offset, std::bit_cast<uint32_t>(value)); }
-inline double load_f64(std::span<const std::byte> bytes, size_t offset) { return std::bit_cast<double>(load_le<uint64_t>(bytes, offset)); }
-inline float load_f32(std::span<const std::byte> bytes, size_t offset) { return std::bit_cast<float>(load_le<uint32_t>(bytes, offset)); }
+inline void store_f64(std::span<std::byte> bytes, size_t offset, double value) {
+    store_le<uint64_t>(bytes, offset, std::bit_cast<uint64_t>(value));
+}
+inline void store_f32(std::span<std::byte> bytes, size_t offset, float value) {
+    store_le<uint32_t>(bytes, offset, std::bit_cast<uint32_t>(value));
+}
+inline double load_f64(std::span<const std::byte> bytes, size_t offset) {
+    return std::bit_cast<double>(load_le<uint64_t>(bytes, offset));
+}
+inline float load_f32(std::span<const std::byte> bytes, size_t offset) {
+    return std::bit_cast<float>(load_le<uint32_t>(bytes, offset));
+}
 
 // XXH3-64 of a block's stored bytes.
 uint64_t block_checksum(std::span<const std::byte> bytes);

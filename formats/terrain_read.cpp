@@ -22,7 +22,9 @@ tl::unexpected<Error> broken(const Reader& file, int rule, fmt::format_string<Ar
     return bad_input("{}: T{}: {}", file.name(), rule, fmt::format(text, std::forward<Args>(args)...));
 }
 
-bool is_between(double value, double low, double high) { return value >= low && value <= high; }  // false for NaN
+bool is_between(double value, double low, double high) {
+    return value >= low && value <= high;
+}  // false for NaN
 
 // The fields of TINF that need no other section.
 Result<void> read_shape(const Reader& file, std::span<const std::byte> info, Terrain& terrain) {
@@ -35,11 +37,13 @@ Result<void> read_shape(const Reader& file, std::span<const std::byte> info, Ter
     frame.metres_per_column = load_f64(info, info_at::metres_per_column);
     frame.metres_per_row = load_f64(info, info_at::metres_per_row);
     for (double metres : {frame.metres_per_column, frame.metres_per_row})
-        if (!is_between(metres, 1e-6, 1e7)) return broken(file, 4, "cells of {} x {} metres", frame.metres_per_column, frame.metres_per_row);
+        if (!is_between(metres, 1e-6, 1e7))
+            return broken(file, 4, "cells of {} x {} metres", frame.metres_per_column, frame.metres_per_row);
 
     terrain.height_step_m = load_f64(info, info_at::height_step_m);
     terrain.height_offset_m = load_f64(info, info_at::height_offset_m);
-    if (!(terrain.height_step_m > 0) || !is_between(std::abs(terrain.height_offset_m) + terrain.height_step_m * kHeightMax, 0, 1e12))
+    if (!(terrain.height_step_m > 0) ||
+        !is_between(std::abs(terrain.height_offset_m) + terrain.height_step_m * kHeightMax, 0, 1e12))
         return broken(file, 5, "heights in steps of {} m from {} m", terrain.height_step_m, terrain.height_offset_m);
     return {};
 }
@@ -85,11 +89,14 @@ struct DirectoryEntry {
 };
 
 // One entry a block, in order, filling TBLK exactly.
-Result<std::vector<DirectoryEntry>> read_directory(const Reader& file, const Section& section, const Section& blocks, const Shape& shape) {
+Result<std::vector<DirectoryEntry>> read_directory(const Reader& file, const Section& section, const Section& blocks,
+                                                   const Shape& shape) {
     uint64_t count = block_count_of(shape);
     if (section.codec != container::Codec::none || section.raw_bytes != count * directory_at::entry_bytes)
-        return broken(file, 9, "a directory of {} bytes; {} blocks need {}, uncompressed", section.raw_bytes, count, count * directory_at::entry_bytes);
-    if (blocks.codec != container::Codec::none) return broken(file, 10, "TBLK is compressed as a whole, its blocks must be one by one");
+        return broken(file, 9, "a directory of {} bytes; {} blocks need {}, uncompressed", section.raw_bytes, count,
+                      count * directory_at::entry_bytes);
+    if (blocks.codec != container::Codec::none)
+        return broken(file, 10, "TBLK is compressed as a whole, its blocks must be one by one");
     auto bytes = file.read(section, section.raw_bytes);
     if (!bytes) return tl::unexpected(bytes.error());
 
@@ -97,15 +104,18 @@ Result<std::vector<DirectoryEntry>> read_directory(const Reader& file, const Sec
     uint64_t expected = 0;
     for (uint64_t i = 0; i < count; ++i) {
         std::span<const std::byte> at = std::span(*bytes).subspan(i * directory_at::entry_bytes, directory_at::entry_bytes);
-        entries[i] = {load_le<uint64_t>(at, directory_at::offset), load_le<uint64_t>(at, directory_at::checksum),
-                      load_le<uint32_t>(at, directory_at::stored_bytes), load_le<uint32_t>(at, directory_at::raw_bytes),
+        entries[i] = {load_le<uint64_t>(at, directory_at::offset),
+                      load_le<uint64_t>(at, directory_at::checksum),
+                      load_le<uint32_t>(at, directory_at::stored_bytes),
+                      load_le<uint32_t>(at, directory_at::raw_bytes),
                       {int32_t(load_le<uint32_t>(at, directory_at::low)), int32_t(load_le<uint32_t>(at, directory_at::high))}};
         if (entries[i].offset != expected || entries[i].stored_bytes > blocks.stored_bytes - expected)
-            return broken(file, 10, "block {} is {} bytes at {}; the one before ends at {} of {}", i, entries[i].stored_bytes, entries[i].offset,
-                          expected, blocks.stored_bytes);
+            return broken(file, 10, "block {} is {} bytes at {}; the one before ends at {} of {}", i, entries[i].stored_bytes,
+                          entries[i].offset, expected, blocks.stored_bytes);
         expected += entries[i].stored_bytes;
     }
-    if (expected != blocks.stored_bytes) return broken(file, 10, "the last block ends at {} of {} bytes", expected, blocks.stored_bytes);
+    if (expected != blocks.stored_bytes)
+        return broken(file, 10, "the last block ends at {} of {} bytes", expected, blocks.stored_bytes);
     return entries;
 }
 
@@ -123,12 +133,14 @@ Fault read_block(std::span<const std::byte> stored, const DirectoryEntry& entry,
     if (!zstd_decode(stored, raw).empty()) return {12, "does not decode to the bytes it states"};
     if (const char* wrong = unpack_block(raw, block, terrain)) return {12, wrong};
     BlockRange range = range_of(terrain, block);
-    if (range.low != entry.range.low || range.high != entry.range.high) return {13, "its heights are not in the range that its entry states"};
+    if (range.low != entry.range.low || range.high != entry.range.high)
+        return {13, "its heights are not in the range that its entry states"};
     return {};
 }
 
 // Blocks of one level do not depend on each other: they are read in parallel, level by level.
-Result<void> read_blocks(const Reader& file, std::span<const std::byte> stored, std::span<const DirectoryEntry> entries, Terrain& terrain) {
+Result<void> read_blocks(const Reader& file, std::span<const std::byte> stored, std::span<const DirectoryEntry> entries,
+                         Terrain& terrain) {
     std::vector<Block> blocks = blocks_of(terrain.shape);
     std::vector<Fault> faults(blocks.size());
     for (size_t first = 0; first < blocks.size();) {
@@ -147,11 +159,13 @@ Result<void> read_blocks(const Reader& file, std::span<const std::byte> stored, 
 
 Result<void> read_texture(const Reader& file, const Section& section, ImageRgb8& texture) {
     constexpr uint64_t kMost = kTextureHeadBytes + uint64_t(3) * kTextureSideMax * kTextureSideMax;
-    if (section.raw_bytes < kTextureHeadBytes || section.raw_bytes > kMost) return broken(file, 17, "a texture of {} bytes", section.raw_bytes);
+    if (section.raw_bytes < kTextureHeadBytes || section.raw_bytes > kMost)
+        return broken(file, 17, "a texture of {} bytes", section.raw_bytes);
     auto bytes = file.read(section, kMost);
     if (!bytes) return tl::unexpected(bytes.error());
     texture.width = load_le<uint32_t>(*bytes, 0), texture.height = load_le<uint32_t>(*bytes, 4);
-    bool fits = texture.width >= 1 && texture.width <= kTextureSideMax && texture.height >= 1 && texture.height <= kTextureSideMax;
+    bool fits =
+        texture.width >= 1 && texture.width <= kTextureSideMax && texture.height >= 1 && texture.height <= kTextureSideMax;
     if (!fits || bytes->size() != kTextureHeadBytes + uint64_t(3) * texture.width * texture.height)
         return broken(file, 17, "a texture of {} x {} pixels in {} bytes", texture.width, texture.height, bytes->size());
     texture.pixels.resize(bytes->size() - kTextureHeadBytes);
@@ -162,10 +176,12 @@ Result<void> read_texture(const Reader& file, const Section& section, ImageRgb8&
 // What the cuts rely on: nested codes, voids that nothing unsplit covers.
 Result<void> check_promises(const Reader& file, std::span<const std::byte> info, const Terrain& terrain) {
     if (auto place = find_code_above_parent(terrain))
-        return broken(file, 14, "the diamond at column {}, row {}, level {} has a higher code than its parent", place->x, place->y, place->level);
+        return broken(file, 14, "the diamond at column {}, row {}, level {} has a higher code than its parent", place->x,
+                      place->y, place->level);
     if (auto place = find_unmarked_void(terrain))
         return broken(file, 15, "the diamond at column {}, row {} covers a void and is not marked", place->x, place->y);
-    uint64_t voids = uint64_t(std::count(terrain.heights.begin(), terrain.heights.end(), kVoid)), stated = load_le<uint64_t>(info, info_at::void_count);
+    uint64_t voids = uint64_t(std::count(terrain.heights.begin(), terrain.heights.end(), kVoid)),
+             stated = load_le<uint64_t>(info, info_at::void_count);
     if (voids != stated) return broken(file, 16, "{} voids, its head states {}", voids, stated);
     return {};
 }

@@ -13,7 +13,8 @@ constexpr std::array<std::string_view, 17> kRules{
     "Height step is finite and above 0, height offset is finite, and no height of 2^28 steps is beyond 1e12 metres.",
     "The finest error is finite, at least 0, and error code 0 is it, rounded up.",
     "Error codes 1 to 254 are finite and never below the one before; code 255 is infinite.",
-    "Flags, reserved numbers and what follows the reference system's name are as documented; it is printable; the reference is a place on Earth.",
+    "Flags, reserved numbers and what follows the reference system's name are as documented; it is printable; the reference is a "
+    "place on Earth.",
     "TDIR, uncompressed, has one entry of 32 bytes for each block that the raster's size asks for.",
     "TBLK, uncompressed, is its blocks: the first begins at 0, each where the one before ends, and the last ends with TBLK.",
     "A block's bytes match their checksum.",
@@ -27,7 +28,11 @@ constexpr std::array<std::string_view, 17> kRules{
 
 }  // namespace
 
-std::string_view rule_text(int rule) { return rule >= 1 && rule <= rule_count() ? kRules[size_t(rule - 1)] : std::string_view(); }
-int rule_count() { return int(kRules.size()); }
+std::string_view rule_text(int rule) {
+    return rule >= 1 && rule <= rule_count() ? kRules[size_t(rule - 1)] : std::string_view();
+}
+int rule_count() {
+    return int(kRules.size());
+}
 
 }  // namespace overlook::terrain

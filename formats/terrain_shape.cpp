@@ -6,7 +6,9 @@
 namespace overlook::terrain {
 namespace {
 
-uint32_t ceil_shift(uint32_t cells, uint32_t log2) { return uint32_t((uint64_t(cells) + (uint64_t(1) << log2) - 1) >> log2); }
+uint32_t ceil_shift(uint32_t cells, uint32_t log2) {
+    return uint32_t((uint64_t(cells) + (uint64_t(1) << log2) - 1) >> log2);
+}
 
 }  // namespace
 

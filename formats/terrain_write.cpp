@@ -42,7 +42,8 @@ std::vector<std::byte> info_bytes(const Terrain& terrain) {
 // What no reader would take, if we made it; null if there is nothing.
 const char* fault_of(const Terrain& terrain) {
     const Shape& shape = terrain.shape;
-    if (shape.width < 2 || shape.height < 2 || uint64_t(shape.width) * shape.height > kSamplesMax) return "a raster of too few or too many samples";
+    if (shape.width < 2 || shape.height < 2 || uint64_t(shape.width) * shape.height > kSamplesMax)
+        return "a raster of too few or too many samples";
     bool fits = terrain.heights.size() == uint64_t(shape.width) * shape.height && terrain.codes.size() == shape.root_log2;
     for (uint32_t level = 0; fits && level < shape.root_log2; ++level) {
         LevelGrid grid = level_grid(shape, level);
@@ -77,7 +78,8 @@ Result<void> write_blocks(container::Writer& writer, const Terrain& terrain, std
         for (size_t i = 0; i < packed.size(); ++i) {
             if (!packed[i].bytes) return tl::unexpected(packed[i].bytes.error());
             const std::vector<std::byte>& bytes = *packed[i].bytes;
-            std::span<std::byte> entry = std::span(directory).subspan((first + i) * directory_at::entry_bytes, directory_at::entry_bytes);
+            std::span<std::byte> entry =
+                std::span(directory).subspan((first + i) * directory_at::entry_bytes, directory_at::entry_bytes);
             store_le<uint64_t>(entry, directory_at::offset, offset);
             store_le<uint32_t>(entry, directory_at::stored_bytes, uint32_t(bytes.size()));
             store_le<uint32_t>(entry, directory_at::raw_bytes, uint32_t(packed[i].raw_bytes));
@@ -102,7 +104,8 @@ Result<void> write_texture(container::Writer& writer, const ImageRgb8& texture) 
 }  // namespace
 
 Result<void> write(container::Writer& writer, const Terrain& terrain) {
-    if (const char* fault = fault_of(terrain)) return tl::unexpected(Error{Exit::our_bug, fmt::format("a terrain to write has {}", fault)});
+    if (const char* fault = fault_of(terrain))
+        return tl::unexpected(Error{Exit::our_bug, fmt::format("a terrain to write has {}", fault)});
     if (auto added = writer.add(kInfoTag, kMustUnderstand, Codec::none, info_bytes(terrain)); !added) return added;
     std::vector<std::byte> directory;
     if (auto written = write_blocks(writer, terrain, directory); !written) return written;

@@ -8,8 +8,8 @@ namespace overlook {
 constexpr int kMaxUnfinishedFiles = 64;
 constexpr int kNoUnfinishedSlot = -1;
 
-// Enters a path, so that remove_unfinished_files() removes it. Returns its slot, or kNoUnfinishedSlot if all are taken or the path
-// is longer than a path can be (4,095 bytes). Any thread.
+// Enters a path, so that remove_unfinished_files() removes it. Returns its slot, or kNoUnfinishedSlot if all are taken or the
+// path is longer than a path can be (4,095 bytes). Any thread.
 int remember_unfinished_file(const std::string& path) noexcept;
 
 // Frees a slot; kNoUnfinishedSlot is allowed and does nothing.

@@ -100,7 +100,8 @@ int run(CLI::App& app, Common& common, int argc, char** argv, const std::functio
     } catch (const CLI::ParseError& error) {
         return answer_parse_error(app, full_name(app, argc > 0 ? argv[0] : nullptr), error);
     } catch (const std::bad_alloc&) {
-        return fail(name, Error{Exit::impossible, common.memory_bytes != 0 ? "needs more than --memory allows" : "out of memory"});
+        return fail(name,
+                    Error{Exit::impossible, common.memory_bytes != 0 ? "needs more than --memory allows" : "out of memory"});
     } catch (const std::exception& error) {
         return fail(name, Error{Exit::our_bug, std::string("internal error: ") + error.what()});
     } catch (...) {

@@ -1,5 +1,5 @@
-// What all commands share: their common options, their one-line messages, their exit codes, their progress. The only part of Overlook that
-// prints or ends a process.
+// What all commands share: their common options, their one-line messages, their exit codes, their progress. The only part of
+// Overlook that prints or ends a process.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,22 +13,25 @@
 namespace overlook::command {
 
 struct Common {
-    unsigned threads = 0;        // 0 = all; never changes the bytes
-    uint64_t memory_bytes = 0;   // 0 = no cap
+    unsigned threads = 0;       // 0 = all; never changes the bytes
+    uint64_t memory_bytes = 0;  // 0 = no cap
     uint64_t seed = 1;
-    bool json = false;           // a report in JSON on stdout
-    bool quiet = false;          // no talk; errors are still said
+    bool json = false;   // a report in JSON on stdout
+    bool quiet = false;  // no talk; errors are still said
     bool verbose = false;
     std::string progress = "auto";
 };
 
 enum class Uses { none = 0, seed = 1, memory = 2 };
-constexpr Uses operator|(Uses a, Uses b) { return Uses(int(a) | int(b)); }
+constexpr Uses operator|(Uses a, Uses b) {
+    return Uses(int(a) | int(b));
+}
 
 // Adds --threads, --json, --quiet, --verbose, --progress, --config (and --seed, --memory where used) to a command.
 void add_common(CLI::App& app, Common& common, Uses uses = Uses::none);
 
-// For CLI::Option::check: a number from least to most. Unlike CLI::Range it refuses NaN: "--error-m: nan is not a number from 0 to 1e+06".
+// For CLI::Option::check: a number from least to most. Unlike CLI::Range it refuses NaN: "--error-m: nan is not a number from 0
+// to 1e+06".
 CLI::Validator number_in(double least, double most);
 
 // Parses and runs: maps CLI11's errors to exit 2 with one line on stderr, --help and --version to 0; applies --threads;

@@ -46,14 +46,18 @@ void shrink_stacks() {
 Result<void> keep_memory_cap(uint64_t cap_bytes) {
     uint64_t library_threads = std::max(1u, std::thread::hardware_concurrency());
     uint64_t least = private_bytes() + library_threads * kStackBytes + thread_count() * kWorkerStackBytes + kWorkingRoomBytes;
-    if (cap_bytes < least) return impossible("--memory {}: is less than this program needs to begin with; give it {}M or more", cap_bytes, (least >> 20) + 1);
+    if (cap_bytes < least)
+        return impossible("--memory {}: is less than this program needs to begin with; give it {}M or more", cap_bytes,
+                          (least >> 20) + 1);
 
     shrink_stacks();
     struct rlimit limit {};
-    if (getrlimit(RLIMIT_DATA, &limit) != 0) return impossible("--memory {}: the system keeps no cap: {}", cap_bytes, std::strerror(errno));
+    if (getrlimit(RLIMIT_DATA, &limit) != 0)
+        return impossible("--memory {}: the system keeps no cap: {}", cap_bytes, std::strerror(errno));
     if (cap_bytes >= limit.rlim_cur) return {};  // a stricter one is kept already
     limit.rlim_cur = cap_bytes;
-    if (setrlimit(RLIMIT_DATA, &limit) != 0) return impossible("--memory {}: the system keeps no cap: {}", cap_bytes, std::strerror(errno));
+    if (setrlimit(RLIMIT_DATA, &limit) != 0)
+        return impossible("--memory {}: the system keeps no cap: {}", cap_bytes, std::strerror(errno));
 
     // The worker threads now, while there is room for their stacks.
     parallel_ranges(thread_count(), 1, [](size_t, size_t) {});

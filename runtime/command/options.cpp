@@ -155,8 +155,9 @@ void add_common(CLI::App& app, Common& common, Uses uses) {
     if (has(uses, Uses::seed)) {
         app.add_option("--seed", common.seed, "Where random numbers begin; the same seed gives the same result")->group(group);
     }
-    app.add_option_function<std::string>("--config", [&app](const std::string& path) { take_config(app, path); },
-                                         "TOML file with values for these options; the command line goes before it")
+    app.add_option_function<std::string>(
+           "--config", [&app](const std::string& path) { take_config(app, path); },
+           "TOML file with values for these options; the command line goes before it")
         ->type_name("FILE.toml")
         ->configurable(false)
         ->group(group);

@@ -53,8 +53,7 @@ EGLDisplay surfaceless_display(const char* extensions) {
 
 std::vector<EGLDisplay> device_displays(const char* extensions) {
     bool can_ask = has_extension(extensions, "EGL_EXT_platform_device") &&
-                   (has_extension(extensions, "EGL_EXT_device_enumeration") ||
-                    has_extension(extensions, "EGL_EXT_device_base"));
+                   (has_extension(extensions, "EGL_EXT_device_enumeration") || has_extension(extensions, "EGL_EXT_device_base"));
     std::vector<EGLDisplay> displays;
     EGLint count = 0;
     if (!can_ask || !eglQueryDevicesEXT(0, nullptr, &count) || count <= 0) return displays;
@@ -112,8 +111,15 @@ Result<Context> Context::on_display(void* display) {
     if (!has_extension(extensions, "EGL_KHR_surfaceless_context") || !has_extension(extensions, "EGL_KHR_no_config_context")) {
         return impossible("EGL has no contexts without a surface");
     }
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE, EGL_NONE};
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 4,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,
+                                 EGL_TRUE,
+                                 EGL_NONE};
     if (!eglBindAPI(EGL_OPENGL_API)) return impossible("EGL has no desktop OpenGL");
     made.context_ = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (made.context_ == EGL_NO_CONTEXT) return impossible("the renderer has no OpenGL 4.5");

@@ -10,9 +10,9 @@
 namespace overlook::gl {
 
 struct Renderer {
-    std::string name;         // GL_RENDERER, "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string version;      // GL_VERSION
-    bool is_software = false; // drawn by the processor: its times say nothing about a graphics card
+    std::string name;          // GL_RENDERER, "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string version;       // GL_VERSION
+    bool is_software = false;  // drawn by the processor: its times say nothing about a graphics card
 };
 
 // Counts the errors that OpenGL reports about the current context (by its debug output and by glGetError), from its

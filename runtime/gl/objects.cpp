@@ -7,11 +7,21 @@ namespace overlook::gl {
 
 void free_object(Kind kind, GLuint id) {
     switch (kind) {
-        case Kind::buffer: glDeleteBuffers(1, &id); break;
-        case Kind::vertex_array: glDeleteVertexArrays(1, &id); break;
-        case Kind::texture: glDeleteTextures(1, &id); break;
-        case Kind::framebuffer: glDeleteFramebuffers(1, &id); break;
-        case Kind::renderbuffer: glDeleteRenderbuffers(1, &id); break;
+        case Kind::buffer:
+            glDeleteBuffers(1, &id);
+            break;
+        case Kind::vertex_array:
+            glDeleteVertexArrays(1, &id);
+            break;
+        case Kind::texture:
+            glDeleteTextures(1, &id);
+            break;
+        case Kind::framebuffer:
+            glDeleteFramebuffers(1, &id);
+            break;
+        case Kind::renderbuffer:
+            glDeleteRenderbuffers(1, &id);
+            break;
     }
 }
 

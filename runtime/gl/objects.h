@@ -1,4 +1,5 @@
-// OpenGL's objects as owners: freed when they go, movable, never copied. The context must be current whenever one is made or goes.
+// OpenGL's objects as owners: freed when they go, movable, never copied. The context must be current whenever one is made or
+// goes.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -8,10 +8,14 @@ namespace {
 
 const char* stage_name(GLenum kind) {
     switch (kind) {
-        case GL_VERTEX_SHADER: return "vertex";
-        case GL_GEOMETRY_SHADER: return "geometry";
-        case GL_FRAGMENT_SHADER: return "fragment";
-        default: return "shader";
+        case GL_VERTEX_SHADER:
+            return "vertex";
+        case GL_GEOMETRY_SHADER:
+            return "geometry";
+        case GL_FRAGMENT_SHADER:
+            return "fragment";
+        default:
+            return "shader";
     }
 }
 

@@ -34,7 +34,8 @@ Result<Target> Target::make(uint32_t width_px, uint32_t height_px, uint32_t samp
     glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
     most_px = std::min({most_px, most_viewport_px[0], most_viewport_px[1]});
     if (std::max(width_px, height_px) > uint32_t(most_px)) {
-        return impossible("pictures of {} x {} pixels are too large for this renderer ({} at most)", width_px, height_px, most_px);
+        return impossible("pictures of {} x {} pixels are too large for this renderer ({} at most)", width_px, height_px,
+                          most_px);
     }
     if (samples > 1 && samples > uint32_t(most_samples)) {
         return impossible("{} samples a pixel are too many for this renderer ({} at most)", samples, most_samples);

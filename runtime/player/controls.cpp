@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kDegreesPerPixel = 0.12;
 constexpr double kSteepest_deg = 89;
-constexpr double kHeightsPerSecond = 0.8;   // at speed factor 1
+constexpr double kHeightsPerSecond = 0.8;  // at speed factor 1
 constexpr double kLeastSpeed_m_s = 4;
 constexpr double kFast = 4;
-constexpr double kLongestFrame_s = 0.25;    // after a pause the camera does not leap
+constexpr double kLongestFrame_s = 0.25;  // after a pause the camera does not leap
 constexpr int kMostSteps = 256;
 
 void keep_above_ground(glm::dvec3& position_m, const terrain::Terrain& terrain) {

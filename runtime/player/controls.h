@@ -15,14 +15,14 @@ struct Input {
 };
 
 struct Flyer {
-    double speed_factor = 1;                // 1/64..64, by the wheel
+    double speed_factor = 1;  // 1/64..64, by the wheel
 };
 
-constexpr double kLeastHeight_m = 2;        // the eye above the ground
+constexpr double kLeastHeight_m = 2;  // the eye above the ground
 
 // Moves the camera by dt_s seconds: forward and right are level, up is up. The speed grows with the height above
-// the ground, so that near things and far things pass equally fast. The eye never comes nearer to the ground than kLeastHeight_m, along the
-// whole way and not only at its end.
+// the ground, so that near things and far things pass equally fast. The eye never comes nearer to the ground than kLeastHeight_m,
+// along the whole way and not only at its end.
 void fly(view::Camera& camera, Flyer& flyer, const Input& input, double dt_s, const terrain::Terrain& terrain);
 
 // The asked error after one press of + (coarser) or - (finer): a factor of 2^(1/2), from 1/16 to 256 pixels.

@@ -8,7 +8,9 @@
 namespace overlook::player {
 namespace {
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+double degrees(double radians) {
+    return radians * 180 / std::numbers::pi;
+}
 
 double mean_height_m(const terrain::Terrain& terrain, double otherwise_m) {
     double sum = 0;

@@ -20,8 +20,8 @@ int play(const Options& options, const command::Common& common) {
         command::note(common, "player: there is no display; drawing the picture without a window");
         is_headless = true;
     }
-    Result<void> played = is_headless ? run_headless(*plan, common, std::move(*scene))
-                                      : run_in_window(*plan, common, std::move(*scene));
+    Result<void> played =
+        is_headless ? run_headless(*plan, common, std::move(*scene)) : run_in_window(*plan, common, std::move(*scene));
     return played ? int(Exit::done) : command::fail("player", played.error());
 }
 

@@ -76,7 +76,8 @@ void add_options(CLI::App& app, Options& options) {
     app.add_flag("--wireframe", options.wireframe, "Draw the triangles' edges");
     app.add_flag("--split-picture", options.split_picture, "Left half wireframe, right half shaded");
     app.add_option("--haze", options.haze, "How hazy the air is: 0 = clear, 1 = a fair day")->capture_default_str();
-    app.add_option("--samples", options.samples, "Samples a pixel: 1 (fast), 2, 4 or 8 (smooth); default 4, or 1 in a window drawn by software");
+    app.add_option("--samples", options.samples,
+                   "Samples a pixel: 1 (fast), 2, 4 or 8 (smooth); default 4, or 1 in a window drawn by software");
     app.add_option("--report", options.report, "Write counts, times and predicted errors of every frame")->type_name("FILE.json");
 }
 

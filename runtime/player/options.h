@@ -14,25 +14,25 @@
 namespace overlook::player {
 
 struct Options {
-    std::string file;                       // the baked terrain
+    std::string file;  // the baked terrain
     bool headless = false;
     std::string size = "1280x720";
-    std::vector<std::string> cameras;       // none = an overview of the terrain
-    uint32_t frames = 0;                    // 0 = one picture headless, endless in a window
-    std::string image;                      // where pictures go; empty = nowhere
-    std::string report;                     // where the report goes; empty = nowhere
+    std::vector<std::string> cameras;  // none = an overview of the terrain
+    uint32_t frames = 0;               // 0 = one picture headless, endless in a window
+    std::string image;                 // where pictures go; empty = nowhere
+    std::string report;                // where the report goes; empty = nowhere
     double error_px = 1;
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;
-    uint32_t samples = 0;                   // a pixel; 0 = settled by choose_samples
+    uint32_t samples = 0;  // a pixel; 0 = settled by choose_samples
 };
 
 // The same, understood.
 struct Plan {
     Options options;
     uint32_t width_px = 0, height_px = 0;
-    std::vector<view::Camera> keys;         // with the size above; empty = an overview of the terrain
+    std::vector<view::Camera> keys;  // with the size above; empty = an overview of the terrain
     terrain::DrawOptions draw;
 };
 

@@ -42,12 +42,9 @@ Json summaries(const std::vector<FrameRecord>& frames) {
     auto of = [&](auto member) {
         return summary_of(values_of(frames, [member](const FrameRecord& frame) { return double(frame.*member); }));
     };
-    return {{"triangles", of(&FrameRecord::triangle_count)},
-            {"tested", of(&FrameRecord::tested_count)},
-            {"refine_ms", of(&FrameRecord::refine_ms)},
-            {"draw_ms", of(&FrameRecord::draw_ms)},
-            {"uploaded_bytes", of(&FrameRecord::uploaded_bytes)},
-            {"predicted_error_px", of(&FrameRecord::predicted_error_px)}};
+    return {{"triangles", of(&FrameRecord::triangle_count)},      {"tested", of(&FrameRecord::tested_count)},
+            {"refine_ms", of(&FrameRecord::refine_ms)},           {"draw_ms", of(&FrameRecord::draw_ms)},
+            {"uploaded_bytes", of(&FrameRecord::uploaded_bytes)}, {"predicted_error_px", of(&FrameRecord::predicted_error_px)}};
 }
 
 }  // namespace
@@ -79,12 +76,12 @@ std::string summary_line(const Plan& plan, const gl::Renderer& renderer, const s
     auto middle = [&](auto member) {
         return percentile(values_of(frames, [member](const FrameRecord& frame) { return double(frame.*member); }), 0.5);
     };
-    return fmt::format("{} frame{} of {} triangles, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
-                       "{:.2f} px",
-                       with_commas(frames.size()), frames.size() == 1 ? "" : "s",
-                       with_commas(uint64_t(middle(&FrameRecord::triangle_count))), middle(&FrameRecord::refine_ms),
-                       middle(&FrameRecord::draw_ms), renderer.name, renderer.is_software ? " (software)" : "",
-                       plan.options.error_px, middle(&FrameRecord::predicted_error_px));
+    return fmt::format(
+        "{} frame{} of {} triangles, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
+        "{:.2f} px",
+        with_commas(frames.size()), frames.size() == 1 ? "" : "s", with_commas(uint64_t(middle(&FrameRecord::triangle_count))),
+        middle(&FrameRecord::refine_ms), middle(&FrameRecord::draw_ms), renderer.name, renderer.is_software ? " (software)" : "",
+        plan.options.error_px, middle(&FrameRecord::predicted_error_px));
 }
 
 Result<void> deliver_report(const Plan& plan, const command::Common& common, const gl::Renderer& renderer,

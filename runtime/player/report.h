@@ -10,7 +10,8 @@
 
 namespace overlook::player {
 
-// Everything of the run: renderer, size, every frame, and of each figure the median, the 95th and 99th percentile and the maximum.
+// Everything of the run: renderer, size, every frame, and of each figure the median, the 95th and 99th percentile and the
+// maximum.
 std::string report_json(const Plan& plan, const gl::Renderer& renderer, const std::vector<FrameRecord>& frames);
 
 // The nearest-rank percentile, share 0..1, of values in any order; 0 if there are none.

@@ -47,8 +47,8 @@ FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, do
 std::vector<view::Camera> keys_of(const Plan& plan, const Scene& scene) {
     std::vector<view::Camera> keys = plan.keys;
     if (keys.empty()) {
-        keys.push_back(overview(scene.terrain(), scene.refiner().lowest_m(), scene.refiner().highest_m(), plan.width_px,
-                                plan.height_px));
+        keys.push_back(
+            overview(scene.terrain(), scene.refiner().lowest_m(), scene.refiner().highest_m(), plan.width_px, plan.height_px));
     }
     for (view::Camera& key : keys) key.near_m = near_m(scene.terrain());
     return keys;

@@ -20,7 +20,7 @@ struct FrameRecord {
     uint64_t tested_count = 0;
     uint64_t uploaded_bytes = 0;
     double refine_ms = 0;
-    double draw_ms = 0;            // submitting and waiting until it is drawn
+    double draw_ms = 0;  // submitting and waiting until it is drawn
     double predicted_error_px = 0;
 };
 

@@ -60,7 +60,8 @@ Result<WindowHandle> open_window(const Plan& plan) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    WindowHandle window(glfwCreateWindow(int(plan.width_px), int(plan.height_px), "Overlook", nullptr, nullptr), glfwDestroyWindow);
+    WindowHandle window(glfwCreateWindow(int(plan.width_px), int(plan.height_px), "Overlook", nullptr, nullptr),
+                        glfwDestroyWindow);
     if (window == nullptr) return no_window(last_glfw_error());
     glfwMakeContextCurrent(window.get());
     glfwSwapInterval(1);
@@ -71,15 +72,28 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
     if (action == GLFW_RELEASE) return;
     Events& events = *static_cast<Events*>(glfwGetWindowUserPointer(window));
     switch (key) {
-        case GLFW_KEY_ESCAPE: glfwSetWindowShouldClose(window, GLFW_TRUE); break;
-        case GLFW_KEY_F: events.toggle_wireframe = !events.toggle_wireframe; break;
-        case GLFW_KEY_H: events.toggle_overlay = !events.toggle_overlay; break;
-        case GLFW_KEY_P: events.take_picture = true; break;
+        case GLFW_KEY_ESCAPE:
+            glfwSetWindowShouldClose(window, GLFW_TRUE);
+            break;
+        case GLFW_KEY_F:
+            events.toggle_wireframe = !events.toggle_wireframe;
+            break;
+        case GLFW_KEY_H:
+            events.toggle_overlay = !events.toggle_overlay;
+            break;
+        case GLFW_KEY_P:
+            events.take_picture = true;
+            break;
         case GLFW_KEY_EQUAL:
-        case GLFW_KEY_KP_ADD: ++events.error_presses; break;
+        case GLFW_KEY_KP_ADD:
+            ++events.error_presses;
+            break;
         case GLFW_KEY_MINUS:
-        case GLFW_KEY_KP_SUBTRACT: --events.error_presses; break;
-        default: break;
+        case GLFW_KEY_KP_SUBTRACT:
+            --events.error_presses;
+            break;
+        default:
+            break;
     }
 }
 
@@ -180,8 +194,10 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         double now_s = glfwGetTime();
         Input input = read_input(window, events, flight);
         apply(events, flight);
-        if (frame_count > 0 && keys.size() > 1) flight.camera = camera_at(keys, double(frame) / std::max(1u, frame_count - 1));
-        else fly(flight.camera, flight.flyer, input, now_s - last_s, scene.terrain());
+        if (frame_count > 0 && keys.size() > 1)
+            flight.camera = camera_at(keys, double(frame) / std::max(1u, frame_count - 1));
+        else
+            fly(flight.camera, flight.flyer, input, now_s - last_s, scene.terrain());
         last_s = now_s;
 
         if (Result<void> fitted = fit_target(window, plan.options.samples, target); !fitted) return fitted;

@@ -105,7 +105,8 @@ Result<void> Drawing::make_programs() {
     const std::string shaded_source = ground_source + shaders::kShadedMain;
     const std::string wireframe_source = ground_source + shaders::kWireframeMain;
     const std::string sky_source = std::string(shaders::kAir) + shaders::kSkyFragment;
-    auto shaded = gl::Program::make("terrain", {{GL_VERTEX_SHADER, shaders::kTerrainVertex}, {GL_FRAGMENT_SHADER, shaded_source}});
+    auto shaded =
+        gl::Program::make("terrain", {{GL_VERTEX_SHADER, shaders::kTerrainVertex}, {GL_FRAGMENT_SHADER, shaded_source}});
     if (!shaded) return tl::unexpected(shaded.error());
     auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, shaders::kTerrainVertex},
                                                      {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},

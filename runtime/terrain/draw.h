@@ -14,17 +14,17 @@
 namespace overlook::terrain {
 
 enum class Look {
-    shaded,      // the texture as it is, or plain shading by slope where there is none
-    wireframe,   // the triangles' edges over a pale picture
-    split,       // left half wireframe, right half shaded
+    shaded,     // the texture as it is, or plain shading by slope where there is none
+    wireframe,  // the triangles' edges over a pale picture
+    split,      // left half wireframe, right half shaded
 };
 
 struct DrawOptions {
     Look look = Look::shaded;
-    double haze = 1;            // how much the air hides far things: 0 = not at all, 1 = a fair day
-    float anisotropy = 8;       // texels taken along the view, at most; each costs time on a software renderer
-    double line_px = 1;         // width of the wireframe's lines
-    glm::dvec3 origin_m{0};     // where the terrain's own origin lies in the world that the camera is in
+    double haze = 1;         // how much the air hides far things: 0 = not at all, 1 = a fair day
+    float anisotropy = 8;    // texels taken along the view, at most; each costs time on a software renderer
+    double line_px = 1;      // width of the wireframe's lines
+    glm::dvec3 origin_m{0};  // where the terrain's own origin lies in the world that the camera is in
 };
 
 // A terrain on the graphics card: 4 bytes a sample and its texture. The terrain itself may go afterwards.
@@ -51,9 +51,9 @@ class Drawing {
 
     uint32_t width_ = 0, height_ = 0;
     double metres_per_column_ = 1, metres_per_row_ = 1;
-    double base_m_ = 0;         // heights on the card are above this one
-    double lowest_m_ = 0;       // above base_m_
-    double highest_m_ = 0;      // above base_m_
+    double base_m_ = 0;     // heights on the card are above this one
+    double lowest_m_ = 0;   // above base_m_
+    double highest_m_ = 0;  // above base_m_
     bool has_texture_ = false;
     gl::Buffer heights_;
     gl::VertexArray vertices_, nothing_;

@@ -1,4 +1,5 @@
-// The shaders of draw.cpp; fragment shaders are put together from kAir and what follows it. Colours are mixed in linear light and written sRGB-encoded.
+// The shaders of draw.cpp; fragment shaders are put together from kAir and what follows it. Colours are mixed in linear light and
+// written sRGB-encoded.
 #pragma once
 
 namespace overlook::terrain::shaders {

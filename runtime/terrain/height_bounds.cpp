@@ -13,7 +13,9 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr HeightRange kEmpty{kInfinite, -kInfinite};
 constexpr size_t kRowsAtATime = 16;
 
-HeightRange join(HeightRange a, HeightRange b) { return {std::min(a.low_m, b.low_m), std::max(a.high_m, b.high_m)}; }
+HeightRange join(HeightRange a, HeightRange b) {
+    return {std::min(a.low_m, b.low_m), std::max(a.high_m, b.high_m)};
+}
 
 // The float range of a height, rounded outward.
 HeightRange range_of(double height_m) {
@@ -61,11 +63,13 @@ Ranges dilated(const Ranges& in) {
     for (uint32_t j = 0; j < in.rows; ++j)
         for (uint32_t i = 0; i < in.columns; ++i)
             for (uint32_t k = i > 0 ? i - 1 : 0; k <= std::min(i + 1, in.columns - 1); ++k)
-                along.values[size_t(j) * in.columns + i] = join(along.values[size_t(j) * in.columns + i], in.values[size_t(j) * in.columns + k]);
+                along.values[size_t(j) * in.columns + i] =
+                    join(along.values[size_t(j) * in.columns + i], in.values[size_t(j) * in.columns + k]);
     for (uint32_t j = 0; j < in.rows; ++j)
         for (uint32_t i = 0; i < in.columns; ++i)
             for (uint32_t k = j > 0 ? j - 1 : 0; k <= std::min(j + 1, in.rows - 1); ++k)
-                out.values[size_t(j) * in.columns + i] = join(out.values[size_t(j) * in.columns + i], along.values[size_t(k) * in.columns + i]);
+                out.values[size_t(j) * in.columns + i] =
+                    join(out.values[size_t(j) * in.columns + i], along.values[size_t(k) * in.columns + i]);
     return out;
 }
 

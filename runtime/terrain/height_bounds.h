@@ -13,8 +13,8 @@ struct HeightRange {
     bool is_empty() const { return low_m > high_m; }
 };
 
-// One grid a level; the range of the 3 x 3 squares of side 2^(level+1) round a square is that of all samples within 3 * 2^level of its middle, borders included: it contains everything that
-// splitting in that square can bring up, at any depth.
+// One grid a level; the range of the 3 x 3 squares of side 2^(level+1) round a square is that of all samples within 3 * 2^level
+// of its middle, borders included: it contains everything that splitting in that square can bring up, at any depth.
 class HeightBounds {
   public:
     explicit HeightBounds(const Terrain& terrain);

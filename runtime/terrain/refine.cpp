@@ -20,7 +20,7 @@ struct Piece {
     int level;
     bool is_square;
     bool parent_covers_void;
-    uint8_t planes;           // of the view, still to be tested
+    uint8_t planes;  // of the view, still to be tested
 };
 
 // Splits by the stored error alone.
@@ -37,7 +37,8 @@ struct MetreTest {
 template <class Test>
 class Walk {
   public:
-    Walk(const Terrain& terrain, const Test& test, Cut::Part& part) : terrain_(terrain), shape_(terrain.shape), test_(test), part_(part) {
+    Walk(const Terrain& terrain, const Test& test, Cut::Part& part)
+        : terrain_(terrain), shape_(terrain.shape), test_(test), part_(part) {
         for (uint32_t level = 0; level < shape_.root_log2; ++level) columns_[level] = level_grid(shape_, level).columns;
     }
 
@@ -67,7 +68,8 @@ class Walk {
 
   private:
     bool reaches_edge(const Triangle& t) const {
-        return std::max({t.apex.x, t.left.x, t.right.x}) >= shape_.width || std::max({t.apex.y, t.left.y, t.right.y}) >= shape_.height;
+        return std::max({t.apex.x, t.left.x, t.right.x}) >= shape_.width ||
+               std::max({t.apex.y, t.left.y, t.right.y}) >= shape_.height;
     }
     uint32_t index_of(GridPoint p) const {
         GridPoint sample = sample_of(shape_, p);
@@ -75,7 +77,8 @@ class Walk {
     }
     void emit(const Piece& piece) {
         part_.void_rim_triangle_count += piece.parent_covers_void;
-        part_.indices.insert(part_.indices.end(), {index_of(piece.triangle.apex), index_of(piece.triangle.left), index_of(piece.triangle.right)});
+        part_.indices.insert(part_.indices.end(),
+                             {index_of(piece.triangle.apex), index_of(piece.triangle.left), index_of(piece.triangle.right)});
     }
     void emit_finest(const Piece& piece) {
         const Triangle& t = piece.triangle;
@@ -128,7 +131,8 @@ void join(size_t part_count, Cut& out) {
     out.predicted_error_px = std::sqrt(predicted_squared);
     out.indices.resize(begins.back());
     parallel_ranges(part_count, 16, [&](size_t first, size_t end) {
-        for (size_t i = first; i < end; ++i) std::copy(out.parts[i].indices.begin(), out.parts[i].indices.end(), out.indices.begin() + ptrdiff_t(begins[i]));
+        for (size_t i = first; i < end; ++i)
+            std::copy(out.parts[i].indices.begin(), out.parts[i].indices.end(), out.indices.begin() + ptrdiff_t(begins[i]));
     });
 }
 
@@ -165,7 +169,8 @@ Refiner::Refiner(Refiner&&) noexcept = default;
 
 void Refiner::cut_by_metres(double tolerance_m, Cut& out) const {
     const auto& errors = impl_->terrain.error_m;
-    auto above = std::upper_bound(errors.begin(), errors.begin() + kMustSplit, tolerance_m, [](double tolerance, float error) { return tolerance < double(error); });
+    auto above = std::upper_bound(errors.begin(), errors.begin() + kMustSplit, tolerance_m,
+                                  [](double tolerance, float error) { return tolerance < double(error); });
     refine(impl_->terrain, MetreTest{impl_->bounds, int(above - errors.begin()) - 1}, 0, out);
 }
 
@@ -174,7 +179,11 @@ void Refiner::cut_by_pixels(const view::Camera& camera, double error_px, Cut& ou
     refine(impl_->terrain, test, ScreenTest::kAllPlanes, out);
 }
 
-double Refiner::lowest_m() const { return impl_->bounds.whole().low_m; }
-double Refiner::highest_m() const { return impl_->bounds.whole().high_m; }
+double Refiner::lowest_m() const {
+    return impl_->bounds.whole().low_m;
+}
+double Refiner::highest_m() const {
+    return impl_->bounds.whole().high_m;
+}
 
 }  // namespace overlook::terrain

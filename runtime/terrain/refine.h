@@ -28,8 +28,8 @@ struct Cut {
     std::vector<Part> parts;  // scratch, kept from frame to frame
 };
 
-// Refines one terrain, which must outlive it, for any number of cameras. Making it costs O(samples) and keeps about 2.7 bytes a sample: the heights
-// round every split vertex. The cuts are the same for every thread count.
+// Refines one terrain, which must outlive it, for any number of cameras. Making it costs O(samples) and keeps about 2.7 bytes a
+// sample: the heights round every split vertex. The cuts are the same for every thread count.
 class Refiner {
   public:
     explicit Refiner(const Terrain& terrain);
@@ -40,9 +40,9 @@ class Refiner {
     // more) of every source sample that it covers, at the same column and row. Cost O(triangles).
     void cut_by_metres(double tolerance_m, Cut& out) const;
 
-    // Splits every diamond in view whose error bound on the screen (view/pixel_error.h) over all that it can bring up is above error_px > 0; what lies
-    // outside the view is left out. Cost O(triangles). Lindstrom and Pascucci 2001, with boxes for their spheres: interval arithmetic on nested
-    // boxes is monotone in floating point as well, so no rounding can open a crack.
+    // Splits every diamond in view whose error bound on the screen (view/pixel_error.h) over all that it can bring up is above
+    // error_px > 0; what lies outside the view is left out. Cost O(triangles). Lindstrom and Pascucci 2001, with boxes for their
+    // spheres: interval arithmetic on nested boxes is monotone in floating point as well, so no rounding can open a crack.
     void cut_by_pixels(const view::Camera& camera, double error_px, Cut& out) const;
 
     // Heights of the terrain's lowest and highest valid sample, metres.

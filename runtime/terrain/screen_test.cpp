@@ -7,7 +7,11 @@ constexpr double kRoundingAllowance = 1 + 1e-9;
 }  // namespace
 
 ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px)
-    : bounds_(bounds), last_column_(terrain.shape.width - 1), last_row_(terrain.shape.height - 1), eye_z_(camera.position_m.z), near_m_(camera.near_m) {
+    : bounds_(bounds),
+      last_column_(terrain.shape.width - 1),
+      last_row_(terrain.shape.height - 1),
+      eye_z_(camera.position_m.z),
+      near_m_(camera.near_m) {
     for (uint32_t x = 0; x <= last_column_; ++x) column_x_.push_back(x * terrain.frame.metres_per_column - camera.position_m.x);
     for (uint32_t y = 0; y <= last_row_; ++y) row_y_.push_back(-(y * terrain.frame.metres_per_row) - camera.position_m.y);
 

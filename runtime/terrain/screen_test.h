@@ -23,23 +23,25 @@ struct Box {
     Interval x, y, z;
 };
 
-// One camera and one tolerance against one terrain. The box of a split vertex reaches 3s round the middle of a square and 2s round that of an edge (s = 2^level
-// cells): so it holds its own diamond and the boxes of all that it splits into, and every figure taken from it by interval arithmetic can
-// only get milder on the way down.
+// One camera and one tolerance against one terrain. The box of a split vertex reaches 3s round the middle of a square and 2s
+// round that of an edge (s = 2^level cells): so it holds its own diamond and the boxes of all that it splits into, and every
+// figure taken from it by interval arithmetic can only get milder on the way down.
 class ScreenTest {
   public:
     static constexpr uint8_t kAllPlanes = 31;  // left, right, bottom, top, near
 
     ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px);
 
-    // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared (px^2) to the bound
-    // of what is kept.
-    Verdict operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t& planes, double& predicted_squared) const {
+    // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared
+    // (px^2) to the bound of what is kept.
+    Verdict operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t& planes,
+                       double& predicted_squared) const {
         Box box;
         if (!box_of(v, level, is_square, box)) return Verdict::leave_out;
         if (planes != 0 && !is_in_view(box, planes)) return Verdict::leave_out;
         if (code == 0 && finest_error_is_zero_) return Verdict::keep;
-        if (code != kMustSplit && keeps_tolerance(box, error_m_[code], tolerance_squared_, predicted_squared)) return Verdict::keep;
+        if (code != kMustSplit && keeps_tolerance(box, error_m_[code], tolerance_squared_, predicted_squared))
+            return Verdict::keep;
         // What an edge of level 0 splits into is the finest there is, whatever was asked.
         if (level == 0 && !is_square && !finest_error_is_zero_) keeps_tolerance(box, error_m_[0], kNoLimit, predicted_squared);
         return Verdict::split;
@@ -53,7 +55,8 @@ class ScreenTest {
             range = bounds_.of_square(v.x, v.y, level);
         } else {
             bool is_horizontal = (v.x >> level) & 1;  // two squares share the edge; the border of the grid has one twice
-            GridPoint before = is_horizontal ? GridPoint{v.x, v.y >= s ? v.y - s : v.y + s} : GridPoint{v.x >= s ? v.x - s : v.x + s, v.y};
+            GridPoint before =
+                is_horizontal ? GridPoint{v.x, v.y >= s ? v.y - s : v.y + s} : GridPoint{v.x >= s ? v.x - s : v.x + s, v.y};
             GridPoint after = is_horizontal ? GridPoint{v.x, v.y + s} : GridPoint{v.x + s, v.y};
             HeightRange a = bounds_.of_square(before.x, before.y, level), b = bounds_.of_square(after.x, after.y, level);
             range = {std::max(a.low_m, b.low_m), std::min(a.high_m, b.high_m)};
@@ -91,7 +94,8 @@ class ScreenTest {
         double depth = std::max(forward_.least(box), near_m_);
         auto outside = [](Interval i) { return std::max(std::max(i.low, -i.high), 0.0); };
         double dx = outside(box.x), dy = outside(box.y), dz = outside(box.z), distance_squared = dx * dx + dy * dy + dz * dz;
-        if (distance_squared > depth * depth * corner_squared_) depth = std::max(depth, std::sqrt(distance_squared) * corner_cosine_);
+        if (distance_squared > depth * depth * corner_squared_)
+            depth = std::max(depth, std::sqrt(distance_squared) * corner_cosine_);
         if (depth <= error_m) return false;
 
         auto widest = [&](const Direction& d) { return std::max(d.greatest(box), -d.least(box)); };

@@ -8,7 +8,9 @@
 namespace overlook::view {
 namespace {
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
 
 // "1,2.5,-3" as numbers; false at the first thing that is none.
 bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
@@ -36,7 +38,9 @@ Axes axes_of(const Camera& camera) {
     return axes;
 }
 
-double focal_px(const Camera& camera) { return camera.height_px / (2 * std::tan(radians(camera.fov_y_deg) / 2)); }
+double focal_px(const Camera& camera) {
+    return camera.height_px / (2 * std::tan(radians(camera.fov_y_deg) / 2));
+}
 
 double corner_secant(const Camera& camera) {
     double focal = focal_px(camera);
@@ -49,8 +53,8 @@ glm::mat4 projection(const Camera& camera) {
     glm::mat4 matrix(0);
     matrix[0][0] = float(2 * focal / camera.width_px);
     matrix[1][1] = float(2 * focal / camera.height_px);
-    matrix[2][3] = -1;                      // clip w = depth in front of the eye
-    matrix[3][2] = float(camera.near_m);    // depth buffer = near / depth
+    matrix[2][3] = -1;                    // clip w = depth in front of the eye
+    matrix[3][2] = float(camera.near_m);  // depth buffer = near / depth
     return matrix;
 }
 
@@ -68,13 +72,15 @@ glm::mat4 rotation(const Camera& camera) {
 Result<Camera> parse_camera(std::string_view text) {
     std::vector<double> numbers;
     if (!parse_numbers(text, numbers) || numbers.size() < 5 || numbers.size() > 6)
-        return bad_command("--camera {}: five or six numbers are wanted: x,y,z,heading,pitch[,fov_y] in metres and degrees", text);
+        return bad_command("--camera {}: five or six numbers are wanted: x,y,z,heading,pitch[,fov_y] in metres and degrees",
+                           text);
     Camera camera;
     camera.position_m = {numbers[0], numbers[1], numbers[2]};
     camera.heading_deg = numbers[3];
     camera.pitch_deg = numbers[4];
     if (numbers.size() == 6) camera.fov_y_deg = numbers[5];
-    if (std::abs(camera.pitch_deg) > 90) return bad_command("--camera {}: pitch {} is outside -90..90 degrees", text, camera.pitch_deg);
+    if (std::abs(camera.pitch_deg) > 90)
+        return bad_command("--camera {}: pitch {} is outside -90..90 degrees", text, camera.pitch_deg);
     if (camera.fov_y_deg < 1 || camera.fov_y_deg > 170)
         return bad_command("--camera {}: field of view {} is outside 1..170 degrees", text, camera.fov_y_deg);
     return camera;

@@ -12,9 +12,9 @@ namespace overlook::view {
 
 struct Camera {
     glm::dvec3 position_m{0};
-    double heading_deg = 0;     // clockwise from +y (north)
-    double pitch_deg = 0;       // up positive, -90..90
-    double fov_y_deg = 60;      // full vertical angle, 1..170
+    double heading_deg = 0;  // clockwise from +y (north)
+    double pitch_deg = 0;    // up positive, -90..90
+    double fov_y_deg = 60;   // full vertical angle, 1..170
     uint32_t width_px = 1280;
     uint32_t height_px = 720;
     double near_m = 1;

@@ -27,14 +27,18 @@ struct Table {
     std::string machine;
     double machine_gb_s = 0;
     std::string csv =
-        "benchmark,input,threads,repeats,min_ms,median_ms,max_ms,work_count,work_unit,work_per_ms,least_bytes_moved,moved_gb_per_s,machine_gb_per_s,"
+        "benchmark,input,threads,repeats,min_ms,median_ms,max_ms,work_count,work_unit,work_per_ms,least_bytes_moved,moved_gb_per_"
+        "s,machine_gb_per_s,"
         "share_of_machine_limit,bytes_per_sample,peak_memory_mb,machine\n";
 
     // least_bytes: what any way of doing this work must read and write.
-    void add(const std::string& benchmark, const std::string& input, int repeats, const bench::Times& times, double work, const char* unit, double least_bytes, double bytes_per_sample) {
+    void add(const std::string& benchmark, const std::string& input, int repeats, const bench::Times& times, double work,
+             const char* unit, double least_bytes, double bytes_per_sample) {
         double gb_s = least_bytes / (times.min_ms * 1e6);
-        csv += fmt::format("{},{},{},{},{:.3f},{:.3f},{:.3f},{:.0f},{},{:.1f},{:.0f},{:.2f},{:.2f},{:.4f},{:.3f},{:.0f},\"{}\"\n", benchmark, input, thread_count(), repeats, times.min_ms, times.median_ms,
-                           times.max_ms, work, unit, work / times.min_ms, least_bytes, gb_s, machine_gb_s, gb_s / machine_gb_s, bytes_per_sample, times.peak_memory_mb, machine);
+        csv += fmt::format("{},{},{},{},{:.3f},{:.3f},{:.3f},{:.0f},{},{:.1f},{:.0f},{:.2f},{:.2f},{:.4f},{:.3f},{:.0f},\"{}\"\n",
+                           benchmark, input, thread_count(), repeats, times.min_ms, times.median_ms, times.max_ms, work, unit,
+                           work / times.min_ms, least_bytes, gb_s, machine_gb_s, gb_s / machine_gb_s, bytes_per_sample,
+                           times.peak_memory_mb, machine);
     }
 };
 
@@ -57,7 +61,8 @@ std::vector<Input> inputs() {
 
 view::Camera overview(const terrain::Terrain& terrain, const terrain::Refiner& refiner, double turn_deg) {
     view::Camera camera;
-    double width_m = terrain.shape.width * terrain.frame.metres_per_column, height_m = terrain.shape.height * terrain.frame.metres_per_row;
+    double width_m = terrain.shape.width * terrain.frame.metres_per_column,
+           height_m = terrain.shape.height * terrain.frame.metres_per_row;
     camera.position_m = {width_m / 2, -height_m / 2, refiner.highest_m() + 0.01 * width_m};
     camera.heading_deg = turn_deg, camera.pitch_deg = -15;
     return camera;
@@ -72,11 +77,15 @@ Result<uint64_t> write_to(const std::string& path, const terrain::Terrain& terra
 
 void measure_bake(const Input& input, const terrain::Terrain& terrain, const Args& args, Table& table) {
     double samples = double(input.dem.samples.size());
-    bench::Times times = bench::time_of(args.repeats, [&] { (void)terrain::measure_split_errors(terrain.shape, terrain.heights); });
-    // Every sample is looked at by two triangles' worth of planes in each of two diamond kinds a level: 4 bytes read once for each.
-    table.add("measure_errors", input.name, args.repeats, times, samples, "samples", samples * (2.0 * terrain.shape.root_log2 * 4 + 5.4), 0);
+    bench::Times times =
+        bench::time_of(args.repeats, [&] { (void)terrain::measure_split_errors(terrain.shape, terrain.heights); });
+    // Every sample is looked at by two triangles' worth of planes in each of two diamond kinds a level: 4 bytes read once for
+    // each.
+    table.add("measure_errors", input.name, args.repeats, times, samples, "samples",
+              samples * (2.0 * terrain.shape.root_log2 * 4 + 5.4), 0);
     times = bench::time_of(args.repeats, [&] { (void)terrain::bake(input.dem, {}, [](double) {}); });
-    table.add("bake_terrain", input.name, args.repeats, times, samples, "samples", samples * (4 + 2.0 * terrain.shape.root_log2 * 4 + 5.4 + 1.4), 0);
+    table.add("bake_terrain", input.name, args.repeats, times, samples, "samples",
+              samples * (4 + 2.0 * terrain.shape.root_log2 * 4 + 5.4 + 1.4), 0);
 }
 
 Result<void> measure_file(const Input& input, const terrain::Terrain& terrain, const Args& args, Table& table) {
@@ -86,9 +95,11 @@ Result<void> measure_file(const Input& input, const terrain::Terrain& terrain, c
     if (!bytes) return tl::unexpected(bytes.error());
     double bytes_per_sample = double(*bytes) / samples;
     bench::Times times = bench::time_of(args.repeats, [&] { (void)write_to(path, terrain); });
-    table.add("write_terrain", input.name, args.repeats, times, samples, "samples", samples * 5.4 + double(*bytes), bytes_per_sample);
+    table.add("write_terrain", input.name, args.repeats, times, samples, "samples", samples * 5.4 + double(*bytes),
+              bytes_per_sample);
     times = bench::time_of(args.repeats, [&] { (void)terrain::read(path); });
-    table.add("read_terrain", input.name, args.repeats, times, samples, "samples", samples * 5.4 + double(*bytes), bytes_per_sample);
+    table.add("read_terrain", input.name, args.repeats, times, samples, "samples", samples * 5.4 + double(*bytes),
+              bytes_per_sample);
     std::filesystem::remove(path);
     return {};
 }
@@ -106,10 +117,12 @@ void measure_refinement(const Input& input, const terrain::Terrain& terrain, con
             }
         });
         // A code and a height range for each vertex tested, three indices for each triangle.
-        table.add(fmt::format("refine_view_at_{:g}px", error_px), input.name, args.repeats, times, triangles, "triangles", tested * 9 + triangles * 12, 0);
+        table.add(fmt::format("refine_view_at_{:g}px", error_px), input.name, args.repeats, times, triangles, "triangles",
+                  tested * 9 + triangles * 12, 0);
     }
     bench::Times times = bench::time_of(args.repeats, [&] { refiner.cut_by_metres(5, cut); });
-    table.add("refine_whole_at_5m", input.name, args.repeats, times, double(cut.triangle_count()), "triangles", double(cut.tested_count) + 12 * double(cut.triangle_count()), 0);
+    table.add("refine_whole_at_5m", input.name, args.repeats, times, double(cut.triangle_count()), "triangles",
+              double(cut.tested_count) + 12 * double(cut.triangle_count()), 0);
 }
 
 int measure_all(const Args& args, const command::Common& common) {
@@ -126,7 +139,8 @@ int measure_all(const Args& args, const command::Common& common) {
         measure_refinement(input, *terrain, args, table);
         command::note(common, input.name + " measured");
     }
-    if (auto written = write_file(args.out + "/terrain.csv", std::string_view(table.csv)); !written) return command::fail("bench", written.error());
+    if (auto written = write_file(args.out + "/terrain.csv", std::string_view(table.csv)); !written)
+        return command::fail("bench", written.error());
     return int(Exit::done);
 }
 

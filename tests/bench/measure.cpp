@@ -27,7 +27,9 @@ std::string machine_name() {
     return "unknown processor";
 }
 
-void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
+void forget_peak_memory() {
+    std::ofstream("/proc/self/clear_refs") << "5";
+}
 
 double peak_memory_mb() {
     std::ifstream file("/proc/self/status");

@@ -32,8 +32,8 @@ Times time_of(int repeats, const Work& work) {
     return {ms.front(), ms[ms.size() / 2], ms.back(), peak_memory_mb()};
 }
 
-// Bytes a second that all threads together move through memory: the triad a[i] = b[i] + s * c[i] over arrays far larger than any cache, counted as
-// three times eight bytes an element (McCalpin's STREAM). In 10^9 bytes a second.
+// Bytes a second that all threads together move through memory: the triad a[i] = b[i] + s * c[i] over arrays far larger than any
+// cache, counted as three times eight bytes an element (McCalpin's STREAM). In 10^9 bytes a second.
 double memory_bandwidth_gb_s();
 
 // What the processor calls itself.

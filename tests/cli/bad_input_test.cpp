@@ -1,4 +1,5 @@
-// Whatever is wrong with what is read, or with where it is to be written: one line that names it, the right exit code, nothing half-written.
+// Whatever is wrong with what is read, or with where it is to be written: one line that names it, the right exit code, nothing
+// half-written.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -45,7 +46,8 @@ TEST(BadInput, TiffCutShortAnywhere) {
     ScratchFolder folder;
     std::string whole = text_of_file(make_dem(folder.path(), 65));
     ASSERT_GT(whole.size(), 1000u);
-    for (size_t length : {size_t(1), size_t(4), size_t(8), size_t(9), size_t(100), whole.size() / 3, whole.size() / 2, whole.size() - 1}) {
+    for (size_t length :
+         {size_t(1), size_t(4), size_t(8), size_t(9), size_t(100), whole.size() / 3, whole.size() / 2, whole.size() - 1}) {
         write_text(folder / "cut.tif", whole.substr(0, length));
         expect_no_bake(folder, folder / "cut.tif", "cut.tif");
     }
@@ -87,8 +89,10 @@ TEST(BadInput, PictureThatIsNone) {
     std::string dem = make_dem(folder.path(), 65), picture = folder / "picture.jpg";
     write_text(picture, "no picture");
     auto before = contents_of(folder.path());
-    expect_refusal(run({"bake-lod", "terrain", dem, "--texture", picture, "-o", folder / "out.ovl"}), 3, "bake-lod terrain", {picture});
-    expect_refusal(run({"bake-lod", "terrain", dem, "--texture", folder / "missing.jpg", "-o", folder / "out.ovl"}), 3, "bake-lod terrain", {"missing.jpg"});
+    expect_refusal(run({"bake-lod", "terrain", dem, "--texture", picture, "-o", folder / "out.ovl"}), 3, "bake-lod terrain",
+                   {picture});
+    expect_refusal(run({"bake-lod", "terrain", dem, "--texture", folder / "missing.jpg", "-o", folder / "out.ovl"}), 3,
+                   "bake-lod terrain", {"missing.jpg"});
     EXPECT_EQ(contents_of(folder.path()), before);
 }
 
@@ -144,7 +148,8 @@ TEST(UnwritableOutput, FolderOfThatName) {
     auto before = contents_of(folder.path());
     for (const Writing& writing : all_writing(folder / "sample/dem.tif", baked, folder / "out"))
         expect_refusal(run(writing.words), 4, writing.name, {writing.words.back(), "Is a directory"});
-    expect_refusal(run({"player", baked, "--headless", "--size", "64x64", "--report", folder / "out.json"}), 4, "player", {"out.json", "Is a directory"});
+    expect_refusal(run({"player", baked, "--headless", "--size", "64x64", "--report", folder / "out.json"}), 4, "player",
+                   {"out.json", "Is a directory"});
     EXPECT_EQ(contents_of(folder.path()), before);
 }
 
@@ -174,7 +179,8 @@ TEST(UnwritableOutput, InputOfTheSameName) {
     fs::create_symlink(dem, folder / "link.ovl");
     auto before = contents_of(folder.path());
     expect_refusal(run({"bake-lod", "terrain", dem, "-o", dem}), 2, "bake-lod terrain", {dem, "would be overwritten"});
-    expect_refusal(run({"bake-lod", "terrain", dem, "-o", folder / "link.ovl"}), 2, "bake-lod terrain", {"link.ovl", "would be overwritten"});
+    expect_refusal(run({"bake-lod", "terrain", dem, "-o", folder / "link.ovl"}), 2, "bake-lod terrain",
+                   {"link.ovl", "would be overwritten"});
     EXPECT_EQ(contents_of(folder.path()), before);
 }
 

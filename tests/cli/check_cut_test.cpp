@@ -21,16 +21,21 @@ struct Mesh {
     std::vector<std::array<int32_t, 3>> triangles;
 };
 
-int height_m(uint32_t column, uint32_t row) { return int(100 + 3 * column * column + 5 * row + column * row); }
+int height_m(uint32_t column, uint32_t row) {
+    return int(100 + 3 * column * column + 5 * row + column * row);
+}
 
 // 5 x 5 samples, the one at column 3, row 1 void.
-int height_or_void_m(uint32_t column, uint32_t row) { return column == kVoidColumn && row == kVoidRow ? -32768 : height_m(column, row); }
+int height_or_void_m(uint32_t column, uint32_t row) {
+    return column == kVoidColumn && row == kVoidRow ? -32768 : height_m(column, row);
+}
 
 // Every finest triangle that has no void corner.
 Mesh finest_mesh() {
     Mesh mesh;
     for (uint32_t row = 0; row < kSide; ++row)
-        for (uint32_t column = 0; column < kSide; ++column) mesh.vertices.push_back({float(column), float(row), float(height_m(column, row))});
+        for (uint32_t column = 0; column < kSide; ++column)
+            mesh.vertices.push_back({float(column), float(row), float(height_m(column, row))});
     auto add = [&](int32_t a, int32_t b, int32_t c) {
         constexpr int32_t kVoid = kVoidRow * int32_t(kSide) + kVoidColumn;
         if (a != kVoid && b != kVoid && c != kVoid) mesh.triangles.push_back({a, b, c});
@@ -48,8 +53,8 @@ Mesh finest_mesh() {
 
 void write_ply(const std::string& path, const Mesh& mesh) {
     std::string out = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(mesh.triangles.size()) +
-                      "\nproperty list uchar int vertex_indices\nend_header\n";
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
     for (const auto& vertex : mesh.vertices) out.append(reinterpret_cast<const char*>(vertex.data()), 12);
     for (const auto& triangle : mesh.triangles) out += char(3), out.append(reinterpret_cast<const char*>(triangle.data()), 12);
     write_text(path, out);
@@ -79,7 +84,9 @@ Ran judge_files(const Mesh& mesh, const char* tolerance_m) {
 TEST(CheckCut, AcceptsTheFinestTriangulation) {
     Ran ran = judge_files(finest_mesh(), "0");
     EXPECT_EQ(ran.exit, 0) << ran.out << ran.err;
-    EXPECT_EQ(ran.out.rfind("{\"sound\": true, \"triangles\": 24, \"samples_covered\": 21, \"valid_samples_uncovered\": 3, ", 0), 0u) << ran.out;
+    EXPECT_EQ(ran.out.rfind("{\"sound\": true, \"triangles\": 24, \"samples_covered\": 21, \"valid_samples_uncovered\": 3, ", 0),
+              0u)
+        << ran.out;
     EXPECT_EQ(ran.out, check_cut::to_json(judge(finest_mesh(), 0)) + "\n");
 }
 

@@ -19,9 +19,11 @@ Words operator+(Words words, const Words& more) {
     return words;
 }
 
-std::string name_of(const Words& verb) { return verb.size() == 1 ? verb[0] : verb[0] + " " + verb[1]; }
+std::string name_of(const Words& verb) {
+    return verb.size() == 1 ? verb[0] : verb[0] + " " + verb[1];
+}
 
-const std::vector<Words> kVerbs = {{"bake-lod", "terrain"}, {"baked", "info"},       {"baked", "verify"}, {"baked", "diff"},
+const std::vector<Words> kVerbs = {{"bake-lod", "terrain"}, {"baked", "info"},      {"baked", "verify"}, {"baked", "diff"},
                                    {"baked", "export"},     {"make-sample", "dem"}, {"player"}};
 const std::vector<Words> kCommands = {{"bake-lod"}, {"baked"}, {"make-sample"}, {"player"}};
 
@@ -66,7 +68,8 @@ TEST(CommandLine, RefusesAnUnknownOptionAndKnowsTheNearest) {
     for (const Words& verb : kVerbs) {
         expect_refusal(run(verb + Words{"--no-such-thing-at-all"}), 2, name_of(verb), {});
         Words with_files = verb == Words{"player"} || verb[1] == "info" ? verb + Words{"a.ovl"} : verb;
-        if (with_files.back() == "a.ovl") expect_refusal(run(with_files + Words{"--thread=3"}), 2, name_of(verb), {"--thread", "did you mean --threads?"});
+        if (with_files.back() == "a.ovl")
+            expect_refusal(run(with_files + Words{"--thread=3"}), 2, name_of(verb), {"--thread", "did you mean --threads?"});
     }
 }
 
@@ -84,13 +87,19 @@ TEST(CommandLine, RefusesAnAbsurdTolerance) {
     auto before = contents_of(folder.path());
     for (const char* number : {"-1", "nan", "-nan", "inf", "1e30", "ten", ""}) {
         SCOPED_TRACE(number);
-        expect_refusal(run({"baked", "export", baked, "-o", folder / "a.ply", "--error-m", number}), 2, "baked export", {"--error-m", number});
-        expect_refusal(run({"baked", "verify", baked, "--source", dem, "--error-m", number}), 2, "baked verify", {"--error-m", number});
-        expect_refusal(run({"player", baked, "--headless", "--image", folder / "a.png", "--error-px", number}), 2, "player", {"--error-px"});
-        expect_refusal(run({"bake-lod", "terrain", dem, "-o", folder / "a.ovl", "--height-step-m", number}), 2, "bake-lod terrain", {"--height-step-m", number});
-        expect_refusal(run({"bake-lod", "terrain", dem, "-o", folder / "a.ovl", "--cell-size-m", number}), 2, "bake-lod terrain", {"--cell-size-m", number});
+        expect_refusal(run({"baked", "export", baked, "-o", folder / "a.ply", "--error-m", number}), 2, "baked export",
+                       {"--error-m", number});
+        expect_refusal(run({"baked", "verify", baked, "--source", dem, "--error-m", number}), 2, "baked verify",
+                       {"--error-m", number});
+        expect_refusal(run({"player", baked, "--headless", "--image", folder / "a.png", "--error-px", number}), 2, "player",
+                       {"--error-px"});
+        expect_refusal(run({"bake-lod", "terrain", dem, "-o", folder / "a.ovl", "--height-step-m", number}), 2,
+                       "bake-lod terrain", {"--height-step-m", number});
+        expect_refusal(run({"bake-lod", "terrain", dem, "-o", folder / "a.ovl", "--cell-size-m", number}), 2, "bake-lod terrain",
+                       {"--cell-size-m", number});
     }
-    expect_refusal(run({"player", baked, "--headless", "--image", folder / "a.png", "--error-px", "0"}), 2, "player", {"--error-px 0"});
+    expect_refusal(run({"player", baked, "--headless", "--image", folder / "a.png", "--error-px", "0"}), 2, "player",
+                   {"--error-px 0"});
     EXPECT_EQ(contents_of(folder.path()), before);
 }
 
@@ -98,26 +107,30 @@ TEST(CommandLine, RefusesAToleranceThatTheFileCannotKeep) {
     ScratchFolder folder;
     std::string dem = make_dem(folder.path(), 65);
     expect_done(run({"bake-lod", "terrain", dem, "-o", folder / "a.ovl", "--height-step-m", "4", "--quiet"}));
-    expect_refusal(run({"baked", "export", folder / "a.ovl", "-o", folder / "a.ply", "--error-m", "0.5"}), 5, "baked export", {folder / "a.ovl", "--height-step-m"});
+    expect_refusal(run({"baked", "export", folder / "a.ovl", "-o", folder / "a.ply", "--error-m", "0.5"}), 5, "baked export",
+                   {folder / "a.ovl", "--height-step-m"});
 }
 
 TEST(CommandLine, RefusesAnUnknownMesh) {
     ScratchFolder folder;
     std::string baked = make_baked(folder.path(), 65);
-    expect_refusal(run({"baked", "export", baked, "--error-m", "5", "-o", folder / "a.obj"}), 2, "baked export", {"a.obj", ".ply"});
-    expect_refusal(run({"baked", "export", baked, "--error-m", "5", "--space", "raster", "-o", folder / "a.glb"}), 2, "baked export", {"a.glb"});
+    expect_refusal(run({"baked", "export", baked, "--error-m", "5", "-o", folder / "a.obj"}), 2, "baked export",
+                   {"a.obj", ".ply"});
+    expect_refusal(run({"baked", "export", baked, "--error-m", "5", "--space", "raster", "-o", folder / "a.glb"}), 2,
+                   "baked export", {"a.glb"});
 }
 
 // Every verb at work, with `more` at its end.
 std::vector<std::pair<Words, bool>> all_work(const ScratchFolder& folder, const std::string& baked, const Words& more) {
     std::string dem = folder / "sample/dem.tif";
-    std::vector<std::pair<Words, bool>> work = {{{"bake-lod", "terrain", dem, "-o", folder / "b.ovl"}, false},
-                                                {{"baked", "info", baked}, true},
-                                                {{"baked", "verify", baked, "--source", dem}, true},
-                                                {{"baked", "diff", baked, baked}, true},
-                                                {{"baked", "export", baked, "--error-m", "5", "-o", folder / "b.ply"}, false},
-                                                {{"make-sample", "dem", "--size", "65", "-o", folder / "new"}, false},
-                                                {{"player", baked, "--headless", "--size", "64x64", "--image", folder / "b.png"}, false}};
+    std::vector<std::pair<Words, bool>> work = {
+        {{"bake-lod", "terrain", dem, "-o", folder / "b.ovl"}, false},
+        {{"baked", "info", baked}, true},
+        {{"baked", "verify", baked, "--source", dem}, true},
+        {{"baked", "diff", baked, baked}, true},
+        {{"baked", "export", baked, "--error-m", "5", "-o", folder / "b.ply"}, false},
+        {{"make-sample", "dem", "--size", "65", "-o", folder / "new"}, false},
+        {{"player", baked, "--headless", "--size", "64x64", "--image", folder / "b.png"}, false}};
     for (auto& [words, answers] : work) words = words + more;
     return work;
 }
@@ -164,7 +177,8 @@ TEST(Diff, AnswersByItsExitCode) {
     ScratchFolder folder;
     std::string baked = make_baked(folder.path(), 65);
     EXPECT_EQ(run({"baked", "diff", baked, baked}).exit, 0);
-    expect_done(run({"bake-lod", "terrain", folder / "sample/dem.tif", "-o", folder / "b.ovl", "--window", "0,0,33,33", "--quiet"}));
+    expect_done(
+        run({"bake-lod", "terrain", folder / "sample/dem.tif", "-o", folder / "b.ovl", "--window", "0,0,33,33", "--quiet"}));
     Ran ran = run({"baked", "diff", baked, folder / "b.ovl"});
     EXPECT_EQ(ran.exit, 1);
     EXPECT_EQ(ran.err, "");

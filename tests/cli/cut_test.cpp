@@ -58,7 +58,9 @@ void expect_sound_cuts(const ScratchFolder& folder, const Dem& dem, std::optiona
     EXPECT_EQ(verified.exit, 0) << verified.out << verified.err;
 }
 
-std::string real_dem(const std::string& name) { return dem_folder() + name; }
+std::string real_dem(const std::string& name) {
+    return dem_folder() + name;
+}
 
 #define NEEDS_DATA() \
     if (dem_folder().empty()) GTEST_SKIP() << "set OVERLOOK_DATA to the folder of real elevation models"
@@ -116,7 +118,8 @@ TEST(Cut, IsSoundOnTheSmallMercatorRaster) {
     expect_sound_cuts(folder, {real_dem("small_nodata_3857.tif"), "-3.4028234663852886e+38", ""}, 0);
 }
 
-// Within 5 % of a right-triangulated irregular network (Evans, Kirkpatrick and Townsend 2001) with certified errors in 8-bit codes.
+// Within 5 % of a right-triangulated irregular network (Evans, Kirkpatrick and Townsend 2001) with certified errors in 8-bit
+// codes.
 TEST(Cut, HasNoMoreTrianglesThanCertifiedRtin) {
     NEEDS_DATA();
     ScratchFolder folder;
@@ -134,7 +137,8 @@ void write_with_lowered_errors(const std::string& from, const std::string& to) {
     ASSERT_TRUE(terrain) << terrain.error().message;
     auto provenance = reader->provenance();
     ASSERT_TRUE(provenance) << provenance.error().message;
-    for (size_t code = 1; code < terrain::kMustSplit; ++code) terrain->error_m[code] = (terrain->error_m[code] + terrain->error_m[0]) / 2;
+    for (size_t code = 1; code < terrain::kMustSplit; ++code)
+        terrain->error_m[code] = (terrain->error_m[code] + terrain->error_m[0]) / 2;
     auto writer = container::Writer::create(to, terrain::kKind);
     ASSERT_TRUE(writer && terrain::write(*writer, *terrain) && writer->add_provenance(*provenance) && writer->commit());
 }

@@ -36,8 +36,10 @@ TEST(SameBytes, OfTheGeneratedElevationModelWithAnyThreadCount) {
     ScratchFolder folder;
     std::string first;
     for (const char* threads : {"1", "2", "7", "7"}) {
-        expect_done(run({"make-sample", "dem", "-o", folder / threads, "--size", "257", "--voids", "5", "--seed", "3", "--threads", threads, "--quiet"}));
-        std::string bytes = text_of_file(folder / (std::string(threads) + "/dem.tif")) + text_of_file(folder / (std::string(threads) + "/recipe.toml"));
+        expect_done(run({"make-sample", "dem", "-o", folder / threads, "--size", "257", "--voids", "5", "--seed", "3",
+                         "--threads", threads, "--quiet"}));
+        std::string bytes = text_of_file(folder / (std::string(threads) + "/dem.tif")) +
+                            text_of_file(folder / (std::string(threads) + "/recipe.toml"));
         if (first.empty()) first = bytes;
         EXPECT_TRUE(bytes == first) << "with " << threads << " threads";
     }

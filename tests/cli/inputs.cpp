@@ -5,7 +5,8 @@
 namespace overlook::cli {
 
 std::string make_dem(const std::string& folder, uint32_t side, uint32_t voids) {
-    expect_done(run({"make-sample", "dem", "-o", folder + "/sample", "--size", std::to_string(side), "--voids", std::to_string(voids), "--quiet"}));
+    expect_done(run({"make-sample", "dem", "-o", folder + "/sample", "--size", std::to_string(side), "--voids",
+                     std::to_string(voids), "--quiet"}));
     return folder + "/sample/dem.tif";
 }
 

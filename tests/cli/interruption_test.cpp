@@ -64,8 +64,9 @@ TEST_P(Interruption, LeavesTheOldFileAndNoHalfOfANewOne) {
     EXPECT_EQ(run({"baked", "info", folder / "out.ovl"}).exit, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Interruption, testing::Values(SIGINT, SIGTERM, SIGKILL),
-                         [](const auto& by) { return by.param == SIGINT ? "SIGINT" : by.param == SIGTERM ? "SIGTERM" : "SIGKILL"; });
+INSTANTIATE_TEST_SUITE_P(By, Interruption, testing::Values(SIGINT, SIGTERM, SIGKILL), [](const auto& by) {
+    return by.param == SIGINT ? "SIGINT" : by.param == SIGTERM ? "SIGTERM" : "SIGKILL";
+});
 
 }  // namespace
 }  // namespace overlook::cli

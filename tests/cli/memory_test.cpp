@@ -35,8 +35,14 @@ TEST(Memory, EndsALargeBakeUnderASmallCapInOneLine) {
     write_hgt(folder / "N10E010.hgt", 3601, hilly_m);
     write_text(folder / "out.ovl", "an older file");
     auto names = folder.names();
-    std::vector<std::string> words{"bake-lod", "terrain", folder / "N10E010.hgt", "-o", folder / "out.ovl", "--threads", "2", "--memory"};
-    std::string least = least_cap(run([&] { auto tiny = words; tiny.push_back("1"); return tiny; }()).err);
+    std::vector<std::string> words{"bake-lod", "terrain", folder / "N10E010.hgt", "-o", folder / "out.ovl", "--threads",
+                                   "2",        "--memory"};
+    std::string least = least_cap(run([&] {
+                                      auto tiny = words;
+                                      tiny.push_back("1");
+                                      return tiny;
+                                  }())
+                                      .err);
     ASSERT_FALSE(least.empty());
     for (int more : {0, 25, 60}) {
         auto capped = words;

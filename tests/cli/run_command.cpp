@@ -94,7 +94,9 @@ Ran Running::wait() {
     return ran;
 }
 
-Ran run(const std::vector<std::string>& words, const Limits& limits) { return Running(words, limits).wait(); }
+Ran run(const std::vector<std::string>& words, const Limits& limits) {
+    return Running(words, limits).wait();
+}
 
 void expect_refusal(const Ran& ran, int exit, const std::string& name, const std::vector<std::string>& parts) {
     EXPECT_EQ(ran.exit, exit) << ran.err;
@@ -103,7 +105,8 @@ void expect_refusal(const Ran& ran, int exit, const std::string& name, const std
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
     EXPECT_TRUE(!ran.err.empty() && ran.err.back() == '\n') << ran.err;
     EXPECT_EQ(ran.err.rfind(name + ": ", 0), 0u) << ran.err;
-    for (const std::string& part : parts) EXPECT_NE(ran.err.find(part), std::string::npos) << "\"" << part << "\" is not in: " << ran.err;
+    for (const std::string& part : parts)
+        EXPECT_NE(ran.err.find(part), std::string::npos) << "\"" << part << "\" is not in: " << ran.err;
 }
 
 void expect_done(const Ran& ran) {

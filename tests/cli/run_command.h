@@ -15,7 +15,7 @@ struct Limits {
 };
 
 struct Ran {
-    int exit = -1;        // -1 if a signal ended it
+    int exit = -1;  // -1 if a signal ended it
     int signal = 0;
     std::string out, err;
 };
@@ -42,7 +42,8 @@ class Running {
 
 Ran run(const std::vector<std::string>& words, const Limits& limits = {});
 
-// Fails the test unless the command ended with `exit`, silent on stdout, with exactly one line on stderr that begins with "NAME: " and holds all of `parts`.
+// Fails the test unless the command ended with `exit`, silent on stdout, with exactly one line on stderr that begins with "NAME:
+// " and holds all of `parts`.
 void expect_refusal(const Ran& ran, int exit, const std::string& name, const std::vector<std::string>& parts);
 
 // Fails the test unless the command ended with 0; says what it said otherwise.

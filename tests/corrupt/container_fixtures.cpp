@@ -13,13 +13,17 @@ namespace {
 
 constexpr size_t kTable = 64, kFirst = 4096;
 
-size_t entry(size_t index) { return kTable + 64 * index; }
+size_t entry(size_t index) {
+    return kTable + 64 * index;
+}
 
 void put(Bytes& file, size_t offset, std::string_view text) {
     for (size_t i = 0; i < text.size(); i++) file[offset + i] = std::byte(text[i]);
 }
 
-void pad(Bytes& file) { file.resize((file.size() + 63) / 64 * 64); }
+void pad(Bytes& file) {
+    file.resize((file.size() + 63) / 64 * 64);
+}
 
 Bytes join(std::initializer_list<std::string_view> parts) {
     Bytes all;
@@ -36,7 +40,9 @@ constexpr std::string_view kFrameMagic = "\x28\xb5\x2f\xfd"sv;
 constexpr std::string_view kTinySize = "\x20"sv;  // single segment, content size in one byte
 
 // One raw block, "echo\n" (5 bytes).
-Bytes echo_frame() { return join({kFrameMagic, kTinySize, "\x05"sv, "\x29\x00\x00"sv, "echo\n"sv}); }
+Bytes echo_frame() {
+    return join({kFrameMagic, kTinySize, "\x05"sv, "\x29\x00\x00"sv, "echo\n"sv});
+}
 
 // `blocks` blocks of 128 KiB, each a repeated byte; states `stated` bytes of content.
 Bytes long_frame(uint32_t blocks, uint32_t stated) {
@@ -51,19 +57,26 @@ Bytes long_frame(uint32_t blocks, uint32_t stated) {
     return frame;
 }
 
-constexpr std::string_view kProvenanceText =
-    R"({"inputs":[{"hash":"0123456789abcdef0123456789abcdef","name":"valley.tif"}],)"
-    R"("options":{"error":"0.5 m"},"program":"demo","version":"0.1.0"})";
+constexpr std::string_view kProvenanceText = R"({"inputs":[{"hash":"0123456789abcdef0123456789abcdef","name":"valley.tif"}],)"
+                                             R"("options":{"error":"0.5 m"},"program":"demo","version":"0.1.0"})";
 
 RawSection plain(std::string_view tag, std::string_view text, uint32_t flags = 0) {
     return {tag, flags, 0, bytes_of(text), text.size()};
 }
-RawSection note() { return plain("NOTE", "Hello, valley\n", 1); }
-RawSection zipped(Bytes frame, uint64_t raw_bytes) { return {"ZIPD", 0, 1, std::move(frame), raw_bytes}; }
-RawSection origin(std::string_view text = kProvenanceText) { return plain("PROV", text); }
+RawSection note() {
+    return plain("NOTE", "Hello, valley\n", 1);
+}
+RawSection zipped(Bytes frame, uint64_t raw_bytes) {
+    return {"ZIPD", 0, 1, std::move(frame), raw_bytes};
+}
+RawSection origin(std::string_view text = kProvenanceText) {
+    return plain("PROV", text);
+}
 
 // The whole file that most corrupt ones begin as.
-Bytes whole() { return file_of(std::array{note(), zipped(echo_frame(), 5), origin()}); }
+Bytes whole() {
+    return file_of(std::array{note(), zipped(echo_frame(), 5), origin()});
+}
 
 template <class T>
 Bytes with(size_t offset, T value) {
@@ -76,7 +89,9 @@ Bytes with(size_t offset, T value) {
 Bytes with_frame(Bytes frame, uint64_t raw_bytes) {
     return file_of(std::array{note(), zipped(std::move(frame), raw_bytes), origin()});
 }
-Bytes with_origin(std::string_view text) { return file_of(std::array{note(), origin(text)}); }
+Bytes with_origin(std::string_view text) {
+    return file_of(std::array{note(), origin(text)});
+}
 
 Bytes resized(size_t size) {
     Bytes file = whole();
@@ -175,45 +190,45 @@ std::vector<Fixture> broken_tables() {
 
 std::vector<Fixture> broken_sections() {
     std::string deep = std::string(100000, '[');
-    return {{"c19_two_mebibytes.ovl", 19, with_frame(long_frame(16, 1 << 21), 1 << 21)},
-            {"c20_first_byte.ovl", 20, with_byte(kFirst, 'J')},
-            {"c20_in_frame.ovl", 20, with_byte(kFirst + 64 + 9, 'E')},
-            {"c21_not_zstd.ovl", 21, with_frame(bytes_of("not a frame"), 11)},
-            {"c21_no_bytes.ovl", 21, with_frame({}, 0)},
-            {"c21_skippable_frame.ovl", 21, with_frame(join({"\x50\x2a\x4d\x18\x00\x00\x00\x00"sv}), 0)},
-            {"c21_other_size.ovl", 21, with_frame(echo_frame(), 6)},
-            {"c21_size_not_stated.ovl", 21,
-             with_frame(join({kFrameMagic, "\x00\x00"sv, "\x29\x00\x00"sv, "echo\n"sv}), 5)},
-            {"c21_frame_cut.ovl", 21, with_frame(join({kFrameMagic, kTinySize, "\x05"sv, "\x29\x00\x00"sv, "echo"sv}), 5)},
-            {"c21_bytes_after_frame.ovl", 21,
-             with_frame(join({kFrameMagic, kTinySize, "\x05"sv, "\x29\x00\x00"sv, "echo\n!"sv}), 5)},
-            {"c21_fewer_bytes.ovl", 21, with_frame(join({kFrameMagic, kTinySize, "\x06"sv, "\x29\x00\x00"sv, "echo\n"sv}), 6)},
-            {"c21_cannot_expand_so_far.ovl", 21, with_frame(long_frame(1, 1 << 20), 1 << 20)},
-            {"c22_unknown_section.ovl", 22, file_of(std::array{plain("NEWS", "later", 1), origin()})},
-            {"c23_none.ovl", 23, file_of(std::array{note()})},
-            {"c23_not_json.ovl", 23, with_origin("{\"inputs\":[")},
-            {"c23_deep.ovl", 23, with_origin(deep)},
-            {"c23_not_utf8.ovl", 23, with_origin("{\"inputs\":[],\"options\":{},\"program\":\"\xff\",\"version\":\"1\"}")},
-            {"c23_key_more.ovl", 23,
-             with_origin(R"({"date":"today","inputs":[],"options":{},"program":"demo","version":"1"})")},
-            {"c23_key_twice.ovl", 23,
-             with_origin(R"({"inputs":[],"options":{},"program":"a","program":"b","version":"1"})")},
-            {"c23_keys_not_in_order.ovl", 23, with_origin(R"({"inputs":[],"options":{},"version":"1","program":"demo"})")},
-            {"c23_white_space.ovl", 23, with_origin(R"({"inputs": [],"options":{},"program":"demo","version":"1"})")},
-            {"c23_number_as_option.ovl", 23,
-             with_origin(R"({"inputs":[],"options":{"error":0.5},"program":"demo","version":"1"})")},
-            {"c23_short_hash.ovl", 23,
-             with_origin(R"({"inputs":[{"hash":"00","name":"a"}],"options":{},"program":"demo","version":"1"})")},
-            {"c23_name_with_folder.ovl", 23,
-             with_origin(R"({"inputs":[{"hash":"0123456789abcdef0123456789abcdef","name":"/home/a"}],)"
-                         R"("options":{},"program":"demo","version":"1"})")}};
+    return {
+        {"c19_two_mebibytes.ovl", 19, with_frame(long_frame(16, 1 << 21), 1 << 21)},
+        {"c20_first_byte.ovl", 20, with_byte(kFirst, 'J')},
+        {"c20_in_frame.ovl", 20, with_byte(kFirst + 64 + 9, 'E')},
+        {"c21_not_zstd.ovl", 21, with_frame(bytes_of("not a frame"), 11)},
+        {"c21_no_bytes.ovl", 21, with_frame({}, 0)},
+        {"c21_skippable_frame.ovl", 21, with_frame(join({"\x50\x2a\x4d\x18\x00\x00\x00\x00"sv}), 0)},
+        {"c21_other_size.ovl", 21, with_frame(echo_frame(), 6)},
+        {"c21_size_not_stated.ovl", 21, with_frame(join({kFrameMagic, "\x00\x00"sv, "\x29\x00\x00"sv, "echo\n"sv}), 5)},
+        {"c21_frame_cut.ovl", 21, with_frame(join({kFrameMagic, kTinySize, "\x05"sv, "\x29\x00\x00"sv, "echo"sv}), 5)},
+        {"c21_bytes_after_frame.ovl", 21, with_frame(join({kFrameMagic, kTinySize, "\x05"sv, "\x29\x00\x00"sv, "echo\n!"sv}), 5)},
+        {"c21_fewer_bytes.ovl", 21, with_frame(join({kFrameMagic, kTinySize, "\x06"sv, "\x29\x00\x00"sv, "echo\n"sv}), 6)},
+        {"c21_cannot_expand_so_far.ovl", 21, with_frame(long_frame(1, 1 << 20), 1 << 20)},
+        {"c22_unknown_section.ovl", 22, file_of(std::array{plain("NEWS", "later", 1), origin()})},
+        {"c23_none.ovl", 23, file_of(std::array{note()})},
+        {"c23_not_json.ovl", 23, with_origin("{\"inputs\":[")},
+        {"c23_deep.ovl", 23, with_origin(deep)},
+        {"c23_not_utf8.ovl", 23, with_origin("{\"inputs\":[],\"options\":{},\"program\":\"\xff\",\"version\":\"1\"}")},
+        {"c23_key_more.ovl", 23, with_origin(R"({"date":"today","inputs":[],"options":{},"program":"demo","version":"1"})")},
+        {"c23_key_twice.ovl", 23, with_origin(R"({"inputs":[],"options":{},"program":"a","program":"b","version":"1"})")},
+        {"c23_keys_not_in_order.ovl", 23, with_origin(R"({"inputs":[],"options":{},"version":"1","program":"demo"})")},
+        {"c23_white_space.ovl", 23, with_origin(R"({"inputs": [],"options":{},"program":"demo","version":"1"})")},
+        {"c23_number_as_option.ovl", 23, with_origin(R"({"inputs":[],"options":{"error":0.5},"program":"demo","version":"1"})")},
+        {"c23_short_hash.ovl", 23,
+         with_origin(R"({"inputs":[{"hash":"00","name":"a"}],"options":{},"program":"demo","version":"1"})")},
+        {"c23_name_with_folder.ovl", 23,
+         with_origin(R"({"inputs":[{"hash":"0123456789abcdef0123456789abcdef","name":"/home/a"}],)"
+                     R"("options":{},"program":"demo","version":"1"})")}};
 }
 
 }  // namespace
 
-Bytes bytes_of(std::string_view text) { return join({text}); }
+Bytes bytes_of(std::string_view text) {
+    return join({text});
+}
 
-void seal(Bytes& file) { store_le<uint64_t>(file, 24, checksum_of_head(file)); }
+void seal(Bytes& file) {
+    store_le<uint64_t>(file, 24, checksum_of_head(file));
+}
 
 Bytes file_of(std::span<const RawSection> sections) {
     Bytes file(kFirst);
@@ -238,7 +253,9 @@ Bytes file_of(std::span<const RawSection> sections) {
     return file;
 }
 
-void PrintTo(const Fixture& fixture, std::ostream* out) { *out << fixture.name; }
+void PrintTo(const Fixture& fixture, std::ostream* out) {
+    *out << fixture.name;
+}
 
 std::vector<Fixture> whole_files() {
     return {{"hello.ovl", 0, file_of(std::array{note(), origin()})},

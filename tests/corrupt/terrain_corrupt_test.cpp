@@ -1,4 +1,5 @@
-// Every rule of the terrain's sections has files that break it, and each is refused by its rule; so is every damage of whole ones.
+// Every rule of the terrain's sections has files that break it, and each is refused by its rule; so is every damage of whole
+// ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,7 +88,8 @@ TEST(DamagedTerrain, IsRefusedAtEveryTruncatedLength) {
     Bytes file = whole_file("two_levels_squeezed.ovl");
     ASSERT_TRUE(read_bytes(file, "a.ovl"));
     for (size_t size = 0; size < file.size(); size++) {
-        Bytes cut(file.begin(), file.begin() + long(size));  // of exactly this size, so that a sanitizer sees a read behind the end
+        Bytes cut(file.begin(),
+                  file.begin() + long(size));  // of exactly this size, so that a sanitizer sees a read behind the end
         ASSERT_FALSE(read_bytes(cut, "a.ovl")) << "cut to " << size << " bytes";
     }
 }

@@ -9,7 +9,9 @@
 namespace overlook::terrain::fixtures {
 namespace {
 
-std::string document() { return text_of_file(OVERLOOK_SOURCE_DIR "/formats/spec/terrain.md"); }
+std::string document() {
+    return text_of_file(OVERLOOK_SOURCE_DIR "/formats/spec/terrain.md");
+}
 
 TEST(TerrainDocument, ShowsTheVeryBytesThatTheWriterWrites) {
     Bytes documented = bytes_of_hexdump(document());

@@ -40,7 +40,8 @@ Bytes with_u32(size_t at, uint32_t value) {
     return changed(hill(), [&](Parts& parts) { store_le<uint32_t>(parts.info, at, value); });
 }
 Bytes with_size(uint32_t width, uint32_t height) {
-    return changed(hill(), [&](Parts& parts) { store_le<uint32_t>(parts.info, 0, width), store_le<uint32_t>(parts.info, 4, height); });
+    return changed(hill(),
+                   [&](Parts& parts) { store_le<uint32_t>(parts.info, 0, width), store_le<uint32_t>(parts.info, 4, height); });
 }
 Bytes with_f64(size_t at, double value) {
     return changed(hill(), [&](Parts& parts) { store_f64(parts.info, at, value); });
@@ -103,8 +104,9 @@ Bytes with_texture(uint32_t width, uint32_t height, size_t pixel_bytes) {
 Bytes with_texture_that_states(uint64_t raw_bytes) {
     Parts parts = Parts::of(hill());
     Bytes frame = frame_of(Bytes(20));
-    return terrain_file_of(std::array{RawSection{"TINF", 1, 0, parts.info, parts.info.size()}, RawSection{"TBLK", 3, 0, parts.blocks, parts.blocks.size()},
-                                      RawSection{"TDIR", 1, 0, parts.directory, parts.directory.size()}, RawSection{"TTEX", 0, 1, frame, raw_bytes}});
+    return terrain_file_of(std::array{
+        RawSection{"TINF", 1, 0, parts.info, parts.info.size()}, RawSection{"TBLK", 3, 0, parts.blocks, parts.blocks.size()},
+        RawSection{"TDIR", 1, 0, parts.directory, parts.directory.size()}, RawSection{"TTEX", 0, 1, frame, raw_bytes}});
 }
 
 std::vector<Fixture> broken_heads() {
@@ -204,10 +206,12 @@ std::vector<Fixture> broken_blocks() {
             {"t12_byte_less.ovl", 12, with_block(hill(), [](Bytes& bytes) { bytes.pop_back(); })},
             {"t12_byte_more.ovl", 12, with_block(hill(), [](Bytes& bytes) { bytes.push_back(std::byte(0)); })},
             {"t12_void_more.ovl", 12, with_byte(hill_with_hole(), 4, 0x30)},
-            {"t12_void_after_last.ovl", 12, with_block(hill_with_hole(), [](Bytes& bytes) {
-                 bytes[5] = std::byte(0x80);
-                 bytes.erase(bytes.begin() + 6);  // a height less, so that the sizes fit
-             })},
+            {"t12_void_after_last.ovl", 12,
+             with_block(hill_with_hole(),
+                        [](Bytes& bytes) {
+                            bytes[5] = std::byte(0x80);
+                            bytes.erase(bytes.begin() + 6);  // a height less, so that the sizes fit
+                        })},
             {"t12_beyond_2_28.ovl", 12, with_block(hill(), far)},
             {"t12_states_too_much.ovl", 12, with_block(hill(), [](Bytes& bytes) { bytes.resize(4 + 2 + 36 + 5 + 1); })},
             {"t12_states_most.ovl", 12, with_entry<uint32_t>(hill(), 12, ~0u)},

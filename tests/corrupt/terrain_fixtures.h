@@ -1,4 +1,5 @@
-// Small baked terrains made without the writer: whole ones, and for every rule of the terrain's sections files that break it alone.
+// Small baked terrains made without the writer: whole ones, and for every rule of the terrain's sections files that break it
+// alone.
 #pragma once
 
 #include <string>

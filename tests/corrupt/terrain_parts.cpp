@@ -13,7 +13,9 @@ namespace {
 
 using container::fixtures::RawSection;
 
-void append(Bytes& bytes, std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
+void append(Bytes& bytes, std::span<const std::byte> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+}
 
 // Header of a block of a frame: its size, type (0 raw, 1 run) and whether it is the last.
 void append_block_header(Bytes& frame, size_t size, uint32_t type, bool is_last) {
@@ -21,12 +23,15 @@ void append_block_header(Bytes& frame, size_t size, uint32_t type, bool is_last)
     for (int shift = 0; shift < 24; shift += 8) frame.push_back(std::byte(header >> shift & 255));
 }
 
-void put_u32(Bytes& bytes, size_t at, uint32_t value) { store_le<uint32_t>(bytes, at, value); }
+void put_u32(Bytes& bytes, size_t at, uint32_t value) {
+    store_le<uint32_t>(bytes, at, value);
+}
 
 Bytes info_of(const Terrain& terrain) {
     Bytes info(1152);
     put_u32(info, 0, terrain.shape.width), put_u32(info, 4, terrain.shape.height);
-    store_f64(info, 8, terrain.height_step_m), store_f64(info, 16, terrain.height_offset_m), store_f64(info, 24, terrain.finest_error_m);
+    store_f64(info, 8, terrain.height_step_m), store_f64(info, 16, terrain.height_offset_m),
+        store_f64(info, 24, terrain.finest_error_m);
     store_f64(info, 32, terrain.frame.metres_per_column), store_f64(info, 40, terrain.frame.metres_per_row);
     put_u32(info, 48, terrain.frame.is_georeferenced), put_u32(info, 52, 7);
     store_f64(info, 56, terrain.frame.centre_latitude_deg), store_f64(info, 64, terrain.frame.centre_longitude_deg);
@@ -56,7 +61,9 @@ Bytes frame_of(std::span<const std::byte> raw) {
     return frame;
 }
 
-Piece piece_of(const Bytes& raw, BlockRange range) { return {frame_of(raw), uint32_t(raw.size()), range}; }
+Piece piece_of(const Bytes& raw, BlockRange range) {
+    return {frame_of(raw), uint32_t(raw.size()), range};
+}
 
 void Parts::lay_out(std::span<const Piece> pieces) {
     directory.clear(), blocks.clear();
@@ -74,7 +81,8 @@ Parts Parts::of(const Terrain& terrain) {
     Parts parts;
     parts.info = info_of(terrain);
     std::vector<Piece> pieces;
-    for (const Block& block : blocks_of(terrain.shape)) pieces.push_back(piece_of(pack_block(terrain, block), range_of(terrain, block)));
+    for (const Block& block : blocks_of(terrain.shape))
+        pieces.push_back(piece_of(pack_block(terrain, block), range_of(terrain, block)));
     parts.lay_out(pieces);
     if (terrain.texture.pixels.empty()) return parts;
     parts.texture.resize(8);
@@ -94,13 +102,16 @@ Bytes Parts::file() const {
     auto section = [](std::string_view tag, uint32_t flags, uint32_t codec, const Bytes& raw) {
         return RawSection{tag, flags, codec, codec == 0 ? raw : frame_of(raw), raw.size()};
     };
-    std::vector<RawSection> sections{section("TINF", 1, 0, info), section("TBLK", blocks_codec == 0 ? 3 : 1, blocks_codec, blocks),
+    std::vector<RawSection> sections{section("TINF", 1, 0, info),
+                                     section("TBLK", blocks_codec == 0 ? 3 : 1, blocks_codec, blocks),
                                      section("TDIR", 1, directory_codec, directory)};
     if (!texture.empty()) sections.push_back(section("TTEX", 0, 1, texture));
     return terrain_file_of(sections);
 }
 
-Bytes file_of(const Terrain& terrain) { return Parts::of(terrain).file(); }
+Bytes file_of(const Terrain& terrain) {
+    return Parts::of(terrain).file();
+}
 
 int rule_in(const std::string& message) {
     size_t at = message.find(": T");

@@ -21,7 +21,9 @@ namespace {
 
 using Names = std::set<std::string>;
 
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+std::span<const std::byte> bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 // Runs in a child process, so that limits and signals stay there. The child's exit code, or -signal if one killed it.
 int in_child(const std::function<int()>& body) {
@@ -128,7 +130,9 @@ TEST(AtomicFile, SurvivesTheFileSizeLimitAndLeavesNothing) {
     ScratchFolder folder;
     std::string path = folder / "a.ovl";
     int code = in_child([&] {
-        struct rlimit limit {10000, 10000};
+        struct rlimit limit {
+            10000, 10000
+        };
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
         Result<AtomicFile> file = AtomicFile::create(path);
         std::vector<std::byte> block(6000);

@@ -52,7 +52,9 @@ TEST(ParallelRanges, OfNothingCallNothing) {
     parallel_ranges(0, 8, [](size_t, size_t) { FAIL(); });
 }
 
-TEST(ParallelRanges, TakeAGrainOfNothingAsOne) { EXPECT_EQ(sorted_ranges(2, 0), (Ranges{{0, 1}, {1, 2}})); }
+TEST(ParallelRanges, TakeAGrainOfNothingAsOne) {
+    EXPECT_EQ(sorted_ranges(2, 0), (Ranges{{0, 1}, {1, 2}}));
+}
 
 TEST(ThreadCount, IsWhatWasAskedFor) {
     for (unsigned threads : {1u, 2u, 5u}) {

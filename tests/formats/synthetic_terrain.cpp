@@ -47,7 +47,8 @@ void saturate(Terrain& terrain, uint32_t level, bool of_squares) {
                 if (is_degenerate(terrain.shape, triangles[k])) continue;
                 uint32_t columns = level_grid(terrain.shape, parent_level).columns;
                 GridPoint apex = triangles[k].apex;
-                uint8_t& parent = terrain.codes[parent_level][size_t(apex.y >> parent_level) * columns + (apex.x >> parent_level)];
+                uint8_t& parent =
+                    terrain.codes[parent_level][size_t(apex.y >> parent_level) * columns + (apex.x >> parent_level)];
                 parent = std::max(parent, code);
             }
         }
@@ -77,9 +78,11 @@ Terrain synthetic_terrain(uint32_t width, uint32_t height, VoidTest is_void) {
         LevelGrid grid = level_grid(terrain.shape, level);
         std::vector<uint8_t>& codes = terrain.codes.emplace_back(size_t(grid.columns) * grid.rows, uint8_t(0));
         for (uint32_t j = 0; j < grid.rows; ++j)
-            for (uint32_t i = 1 - (j & 1); i < grid.columns; i += 2 - (j & 1)) codes[size_t(j) * grid.columns + i] = uint8_t(1 + numbers.next() % 8 + 4 * level);
+            for (uint32_t i = 1 - (j & 1); i < grid.columns; i += 2 - (j & 1))
+                codes[size_t(j) * grid.columns + i] = uint8_t(1 + numbers.next() % 8 + 4 * level);
     }
-    for (uint32_t level = 0; level < terrain.shape.root_log2; ++level) saturate(terrain, level, false), saturate(terrain, level, true);
+    for (uint32_t level = 0; level < terrain.shape.root_log2; ++level)
+        saturate(terrain, level, false), saturate(terrain, level, true);
     return terrain;
 }
 

@@ -13,7 +13,8 @@
 namespace overlook::terrain {
 namespace {
 
-constexpr std::array<std::array<uint32_t, 2>, 9> kSizes{{{3, 3}, {4, 4}, {5, 4}, {4, 9}, {9, 9}, {6, 3}, {17, 12}, {12, 33}, {33, 33}}};
+constexpr std::array<std::array<uint32_t, 2>, 9> kSizes{
+    {{3, 3}, {4, 4}, {5, 4}, {4, 9}, {9, 9}, {6, 3}, {17, 12}, {12, 33}, {33, 33}}};
 
 Terrain without_errors(uint32_t width, uint32_t height) {
     Terrain terrain = synthetic_terrain(width, height, no_void);
@@ -32,7 +33,8 @@ void visit_codes(Terrain& terrain, const Visit& visit) {
                 Triangle both[2];
                 int count = triangles_of_diamond(terrain.shape, i << level, j << level, level, both);
                 std::vector<Triangle> drawn;
-                std::copy_if(both, both + count, std::back_inserter(drawn), [&](const Triangle& t) { return !is_degenerate(terrain.shape, t); });
+                std::copy_if(both, both + count, std::back_inserter(drawn),
+                             [&](const Triangle& t) { return !is_degenerate(terrain.shape, t); });
                 visit(i << level, j << level, level, terrain.codes[level][size_t(j) * grid.columns + i], drawn);
             }
     }
@@ -47,7 +49,8 @@ TEST(TerrainCheck, FindsEveryCodeAboveItsParent) {
             code = 1;
             auto place = find_code_above_parent(terrain);
             code = 0;
-            ASSERT_EQ(place.has_value(), !is_root && !drawn.empty()) << x << ", " << y << " of " << terrain.shape.width << " x " << terrain.shape.height;
+            ASSERT_EQ(place.has_value(), !is_root && !drawn.empty())
+                << x << ", " << y << " of " << terrain.shape.width << " x " << terrain.shape.height;
             if (place) {
                 ASSERT_EQ(std::tuple(place->x, place->y, place->level), std::tuple(x, y, level));
             }

@@ -22,7 +22,9 @@ Result<uint64_t> write_file_of(const Terrain& terrain, const std::string& path) 
 struct Size {
     uint32_t width, height;
 };
-void PrintTo(const Size& size, std::ostream* out) { *out << size.width << 'x' << size.height; }
+void PrintTo(const Size& size, std::ostream* out) {
+    *out << size.width << 'x' << size.height;
+}
 
 class TerrainOfSize : public testing::TestWithParam<Size> {};
 
@@ -50,11 +52,9 @@ void expect_same(const Terrain& read, const Terrain& written) {
 
 TEST_P(TerrainOfSize, ComesBackWithAnyVoids) {
     ScratchFolder folder;
-    const VoidTest tests[] = {no_void,
-                              [](uint32_t x, uint32_t y) { return x == 1 && y == 1; },
+    const VoidTest tests[] = {no_void, [](uint32_t x, uint32_t y) { return x == 1 && y == 1; },
                               [](uint32_t x, uint32_t y) { return ((x ^ y) & 1) != 0; },
-                              [](uint32_t x, uint32_t y) { return x != 1 || y != 0; },
-                              [](uint32_t, uint32_t) { return true; }};
+                              [](uint32_t x, uint32_t y) { return x != 1 || y != 0; }, [](uint32_t, uint32_t) { return true; }};
     for (size_t i = 0; i < std::size(tests); ++i) {
         SCOPED_TRACE(i);
         Terrain terrain = synthetic_terrain(GetParam().width, GetParam().height, tests[i]);
@@ -69,8 +69,9 @@ TEST_P(TerrainOfSize, ComesBackWithAnyVoids) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, TerrainOfSize,
-                         testing::Values(Size{2, 2}, Size{2, 3}, Size{3, 2}, Size{3, 3}, Size{5, 4}, Size{4, 9}, Size{6, 3}, Size{129, 129},
-                                         Size{130, 257}, Size{300, 131}, Size{2, 1000}, Size{300, 2}, Size{3, 500}),
+                         testing::Values(Size{2, 2}, Size{2, 3}, Size{3, 2}, Size{3, 3}, Size{5, 4}, Size{4, 9}, Size{6, 3},
+                                         Size{129, 129}, Size{130, 257}, Size{300, 131}, Size{2, 1000}, Size{300, 2},
+                                         Size{3, 500}),
                          [](const testing::TestParamInfo<Size>& size) {
                              return std::to_string(size.param.width) + "x" + std::to_string(size.param.height);
                          });

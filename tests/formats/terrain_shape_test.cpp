@@ -1,4 +1,5 @@
-// The laws of the hierarchy: which squares, diamonds and triangles there are, and that blocks hold each sample and each code once.
+// The laws of the hierarchy: which squares, diamonds and triangles there are, and that blocks hold each sample and each code
+// once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +12,9 @@
 
 namespace overlook::terrain {
 
-static bool operator==(GridPoint a, GridPoint b) { return a.x == b.x && a.y == b.y; }
+static bool operator==(GridPoint a, GridPoint b) {
+    return a.x == b.x && a.y == b.y;
+}
 
 namespace {
 
@@ -95,7 +98,8 @@ TEST(TerrainDiamonds, SplitIntoTrianglesOfDiamondsThatFollow) {
             bool is_square = diamond_kind(x, y, level) == DiamondKind::square;
             if (!is_square && level == 0) return;  // its halves are the finest triangles
             for (int i = 0; i < count; ++i) {
-                for (Triangle half : {Triangle{{x, y}, triangles[i].apex, triangles[i].left}, Triangle{{x, y}, triangles[i].right, triangles[i].apex}}) {
+                for (Triangle half : {Triangle{{x, y}, triangles[i].apex, triangles[i].left},
+                                      Triangle{{x, y}, triangles[i].right, triangles[i].apex}}) {
                     uint32_t child_x = (half.left.x + half.right.x) / 2, child_y = (half.left.y + half.right.y) / 2;
                     uint32_t child_level = is_square ? level : level - 1;
                     ASSERT_EQ(uint32_t(std::countr_zero(child_x | child_y)), child_level);
@@ -120,7 +124,8 @@ TEST(TerrainDiamonds, StandInTheGridOfTheirLevelUnlessTheyAreSqueezedToNothing) 
         visit_split_vertices(shape, [&](uint32_t x, uint32_t y, uint32_t level) {
             Triangle triangles[2];
             int count = triangles_of_diamond(shape, x, y, level, triangles);
-            bool is_drawn = std::any_of(triangles, triangles + count, [&](const Triangle& t) { return !is_degenerate(shape, t); });
+            bool is_drawn =
+                std::any_of(triangles, triangles + count, [&](const Triangle& t) { return !is_degenerate(shape, t); });
             LevelGrid grid = level_grid(shape, level);
             ASSERT_EQ(grid.columns % 2, 1u);
             ASSERT_EQ(grid.rows % 2, 1u);
@@ -160,7 +165,8 @@ TEST(TerrainBlocks, HoldEverySampleOnce) {
 // Flat ground takes one byte a sample and one a code, and four for each block's head.
 TEST(TerrainBlocks, HoldNothingTwice) {
     std::vector<std::array<uint32_t, 2>> sizes(kSizes.begin(), kSizes.end());
-    for (std::array<uint32_t, 2> size : {std::array{129u, 129u}, {130u, 257u}, {259u, 300u}, {2u, 77u}, {90u, 2u}}) sizes.push_back(size);
+    for (std::array<uint32_t, 2> size : {std::array{129u, 129u}, {130u, 257u}, {259u, 300u}, {2u, 77u}, {90u, 2u}})
+        sizes.push_back(size);
     for (auto [width, height] : sizes) {
         Terrain terrain = synthetic_terrain(width, height, no_void);
         std::fill(terrain.heights.begin(), terrain.heights.end(), 0);

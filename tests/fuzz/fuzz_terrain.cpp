@@ -1,5 +1,5 @@
-// Any bytes as a baked terrain: nothing may crash, leak or take memory without bound; and what is read keeps its promises and can be
-// written again.
+// Any bytes as a baked terrain: nothing may crash, leak or take memory without bound; and what is read keeps its promises and can
+// be written again.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,9 @@ using namespace overlook::container;
 
 constexpr uint64_t kMostSamples = 1 << 18;  // the format allows many in few bytes; here time is for other things
 
-size_t entry_of(size_t index) { return kHeaderBytes + index * kEntryBytes; }
+size_t entry_of(size_t index) {
+    return kHeaderBytes + index * kEntryBytes;
+}
 
 // Calls visit(entry offset, tag, section's bytes) for each section that lies within the file.
 template <class Visit>
@@ -53,7 +55,8 @@ void mend(std::span<std::byte> file) {
         auto offset = load_le<uint64_t>(directory, at + terrain::directory_at::offset);
         auto stored = load_le<uint32_t>(directory, at + terrain::directory_at::stored_bytes);
         if (offset > blocks.size() || stored > blocks.size() - offset) continue;
-        store_le<uint64_t>(directory, at + terrain::directory_at::checksum, terrain::block_checksum(blocks.subspan(size_t(offset), stored)));
+        store_le<uint64_t>(directory, at + terrain::directory_at::checksum,
+                           terrain::block_checksum(blocks.subspan(size_t(offset), stored)));
     }
     visit_sections(file, [&](size_t entry, Tag, std::span<std::byte> bytes) {
         store_le<uint64_t>(file, entry + entry_at::checksum, checksum_of(bytes));
@@ -67,7 +70,8 @@ void mend(std::span<std::byte> file) {
 
 // What the rules promise to whoever draws it.
 void use(const terrain::Terrain& read) {
-    if (read.heights.size() != uint64_t(read.shape.width) * read.shape.height || read.codes.size() != read.shape.root_log2) __builtin_trap();
+    if (read.heights.size() != uint64_t(read.shape.width) * read.shape.height || read.codes.size() != read.shape.root_log2)
+        __builtin_trap();
     if (terrain::find_code_above_parent(read) || terrain::find_unmarked_void(read)) __builtin_trap();
 
     terrain::Terrain again = read;
@@ -75,7 +79,8 @@ void use(const terrain::Terrain& read) {
     std::fill(again.heights.begin(), again.heights.end(), 0);
     for (const terrain::Block& block : terrain::blocks_of(read.shape)) {
         std::vector<std::byte> raw = terrain::pack_block(read, block);
-        if (raw.size() > terrain::packed_bytes_max(read.shape, block) || terrain::unpack_block(raw, block, again) != nullptr) __builtin_trap();
+        if (raw.size() > terrain::packed_bytes_max(read.shape, block) || terrain::unpack_block(raw, block, again) != nullptr)
+            __builtin_trap();
     }
     if (again.heights != read.heights || again.codes != read.codes) __builtin_trap();
 }

@@ -24,7 +24,8 @@ Rgb pixel(const ImageRgb8& image, uint32_t x, uint32_t y);  // y from the top
 // Whether the colours differ by at most `tolerance` in every channel.
 bool is_near(const Rgb& a, const Rgb& b, int tolerance);
 
-// side x side samples, 10 m apart, at height 0; four colours: red north-west, green north-east, blue south-west, yellow south-east.
+// side x side samples, 10 m apart, at height 0; four colours: red north-west, green north-east, blue south-west, yellow
+// south-east.
 terrain::Terrain flat_terrain(uint32_t side);
 // The same size and colours, with hills up to 200 m high.
 terrain::Terrain hilly_terrain(uint32_t side);
@@ -40,7 +41,7 @@ view::Camera from_south(const terrain::Terrain& terrain, uint32_t width_px, uint
 }  // namespace overlook::test
 
 // Stops a test with a line that says why, where OpenGL cannot be had.
-#define OVERLOOK_NEEDS_SOFTWARE_RENDERER(name)                             \
-    std::string name##_reason;                                             \
+#define OVERLOOK_NEEDS_SOFTWARE_RENDERER(name)                               \
+    std::string name##_reason;                                               \
     std::optional<gl::Context> name = test::software_context(name##_reason); \
     if (!name) GTEST_SKIP() << "no software renderer: " << name##_reason

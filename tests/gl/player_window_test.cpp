@@ -50,7 +50,8 @@ class Player : public ::testing::Test {
 };
 
 TEST_F(Player, OpensAWindowAndEndsAfterTheFramesAskedFor) {
-    if (std::system("command -v xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is not installed: no window was opened";
+    if (std::system("command -v xvfb-run >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "xvfb-run is not installed: no window was opened";
     int status = run("xvfb-run -a " + kPlayer + " " + file_ + " --frames 3 --size 320x200 --report " + in_folder("report.json"));
     ASSERT_EQ(status, 0) << output_;
     EXPECT_EQ(report()["frames"].size(), 3u);
@@ -58,9 +59,10 @@ TEST_F(Player, OpensAWindowAndEndsAfterTheFramesAskedFor) {
 }
 
 TEST_F(Player, WritesNumberedPicturesAndAReport) {
-    ASSERT_EQ(play(file_ + " --headless --size 64x48 --frames 2 --camera 320,-900,300,0,-15 --camera 320,-500,300,20,-15 --image " +
-                   in_folder("f%03d.png") + " --report " + in_folder("report.json")),
-              0)
+    ASSERT_EQ(
+        play(file_ + " --headless --size 64x48 --frames 2 --camera 320,-900,300,0,-15 --camera 320,-500,300,20,-15 --image " +
+             in_folder("f%03d.png") + " --report " + in_folder("report.json")),
+        0)
         << output_;
     EXPECT_TRUE(std::filesystem::exists(in_folder("f000.png")) && std::filesystem::exists(in_folder("f001.png")));
     nlohmann::json json = report();
@@ -77,10 +79,27 @@ TEST_F(Player, SaysInOneLineThatThereIsNoDisplay) {
 }
 
 TEST_F(Player, RefusesCommandLinesThatMakeNoSense) {
-    for (const char* wrong : {"--size 0x5", "--size 640", "--size 640x", "--size -4x4", "--size 99999x4", "--error-px 0",
-                              "--error-px -1", "--error-px nan", "--error-px inf", "--error-px x", "--camera 1,2,3",
-                              "--camera 1,2,nan,0,0", "--camera 1,2,3,0,91", "--camera 1e300,2,3,0,0", "--haze -1", "--samples 3",
-                              "--wireframe --split-picture", "--image a%s.png", "--image %d%d.png", "--frames -2", "--colour"}) {
+    for (const char* wrong : {"--size 0x5",
+                              "--size 640",
+                              "--size 640x",
+                              "--size -4x4",
+                              "--size 99999x4",
+                              "--error-px 0",
+                              "--error-px -1",
+                              "--error-px nan",
+                              "--error-px inf",
+                              "--error-px x",
+                              "--camera 1,2,3",
+                              "--camera 1,2,nan,0,0",
+                              "--camera 1,2,3,0,91",
+                              "--camera 1e300,2,3,0,0",
+                              "--haze -1",
+                              "--samples 3",
+                              "--wireframe --split-picture",
+                              "--image a%s.png",
+                              "--image %d%d.png",
+                              "--frames -2",
+                              "--colour"}) {
         EXPECT_EQ(play(file_ + " --headless " + wrong), 2) << wrong << ": " << output_;
         EXPECT_TRUE(is_one_line()) << wrong << ": " << output_;
     }

@@ -16,8 +16,10 @@ enum class Layer { formats, view, stream, deciding, command, gl, drawing, player
 std::vector<std::string> parts_of(std::string_view path) {
     std::vector<std::string> parts(1);
     for (char c : path) {
-        if (c == '/') parts.emplace_back();
-        else parts.back() += c;
+        if (c == '/')
+            parts.emplace_back();
+        else
+            parts.back() += c;
     }
     return parts;
 }
@@ -32,8 +34,10 @@ Layer layer_of(std::string_view path) {
         return parts[1] == "measure" ? Layer::measure : Layer::mouth;
     }
     if (parts[0] != "runtime") return Layer::outside;
-    static const std::map<std::string, Layer> kRooms = {{"view", Layer::view}, {"stream", Layer::stream},
-                                                        {"command", Layer::command}, {"gl", Layer::gl},
+    static const std::map<std::string, Layer> kRooms = {{"view", Layer::view},
+                                                        {"stream", Layer::stream},
+                                                        {"command", Layer::command},
+                                                        {"gl", Layer::gl},
                                                         {"player", Layer::player}};
     if (auto room = kRooms.find(parts[1]); room != kRooms.end()) return room->second;
     return parts.back().starts_with("draw") ? Layer::drawing : Layer::deciding;
@@ -60,12 +64,18 @@ const std::set<Layer>& may_know(Layer from) {
     return kArrows.at(from);
 }
 
-bool draws(Layer layer) { return layer == Layer::gl || layer == Layer::drawing || layer == Layer::player; }
-bool may_use_opengl(Layer layer) { return draws(layer) || layer == Layer::measure || layer == Layer::sample; }
+bool draws(Layer layer) {
+    return layer == Layer::gl || layer == Layer::drawing || layer == Layer::player;
+}
+bool may_use_opengl(Layer layer) {
+    return draws(layer) || layer == Layer::measure || layer == Layer::sample;
+}
 bool is_deciding(Layer layer) {
     return layer == Layer::view || layer == Layer::stream || layer == Layer::deciding || layer == Layer::formats;
 }
-bool is_lean(Layer layer) { return is_deciding(layer) || draws(layer) || layer == Layer::command; }
+bool is_lean(Layer layer) {
+    return is_deciding(layer) || draws(layer) || layer == Layer::command;
+}
 // Rule 5: commands talk, and only their mains and what they share end a process.
 bool may_print(Layer layer) {
     using enum Layer;
@@ -81,16 +91,15 @@ bool begins_with_any(std::string_view text, std::span<const std::string_view> pr
 bool contains_any(std::string_view text, std::span<const std::string_view> needles) {
     std::string lower(text);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return std::any_of(needles.begin(), needles.end(),
-                       [&](std::string_view n) { return lower.find(n) != std::string::npos; });
+    return std::any_of(needles.begin(), needles.end(), [&](std::string_view n) { return lower.find(n) != std::string::npos; });
 }
 
 constexpr std::array<std::string_view, 7> kOpenGlHeaders = {"epoxy/", "GL/", "GLES", "EGL/", "KHR/", "GLFW/", "imgui"};
 constexpr std::array<std::string_view, 5> kOpenGlLinks = {"epoxy", "opengl::", "egl", "glfw", "imgui"};
-constexpr std::array<std::string_view, 8> kBakerHeaders = {"embree", "OpenMesh/", "CGAL/", "OpenImageIO/",
-                                                           "GeographicLib/", "gdal", "ogr", "opencv"};
-constexpr std::array<std::string_view, 7> kBakerLinks = {"embree", "openmesh", "cgal", "openimageio",
-                                                         "geographic", "gdal", "opencv"};
+constexpr std::array<std::string_view, 8> kBakerHeaders = {"embree",         "OpenMesh/", "CGAL/", "OpenImageIO/",
+                                                           "GeographicLib/", "gdal",      "ogr",   "opencv"};
+constexpr std::array<std::string_view, 7> kBakerLinks = {"embree",     "openmesh", "cgal",  "openimageio",
+                                                         "geographic", "gdal",     "opencv"};
 
 // Rules 1 and 3 on one arrow, included or linked.
 void check_arrow(Layer from, Layer to, const Finding& at, const std::string& verb, const std::string& whom,
@@ -129,8 +138,8 @@ void check_seams(const Source& source, std::vector<Finding>& found) {
             bool is_named = std::find(seam.files.begin(), seam.files.end(), source.path) != seam.files.end();
             if (!is_it || is_named || (seam.is_light && source.path.ends_with(".cpp"))) continue;
             if (is_lean(layer_of(source.path)) && begins_with_any(include.path, kBakerHeaders)) continue;  // rule 2's
-            found.push_back({4, source.path, include.line,
-                             "includes <" + include.path + ">, but is not a seam of " + seam.dependency});
+            found.push_back(
+                {4, source.path, include.line, "includes <" + include.path + ">, but is not a seam of " + seam.dependency});
         }
     }
 }

@@ -6,8 +6,12 @@
 namespace overlook::layering {
 namespace {
 
-bool is_word_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool is_word_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool is_word_start(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+}
+bool is_word_part(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
 
 class Scanner {
   public:
@@ -95,12 +99,14 @@ class Scanner {
     size_t at_ = 0;
     int line_ = 1;
     bool line_is_blank_ = true;
-    std::string before_;     // the last two signs since the last word
+    std::string before_;  // the last two signs since the last word
     std::string last_word_;
 };
 
 }  // namespace
 
-Source scan_source(std::string path, std::string_view text) { return Scanner(std::move(path), text).scan(); }
+Source scan_source(std::string path, std::string_view text) {
+    return Scanner(std::move(path), text).scan();
+}
 
 }  // namespace overlook::layering

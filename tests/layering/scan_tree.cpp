@@ -53,8 +53,8 @@ std::vector<Command> commands_of(std::string_view text) {
 }
 
 bool is_keyword(const std::string& word) {
-    static const std::vector<std::string> kKeywords = {"PUBLIC", "PRIVATE", "INTERFACE", "STATIC", "SHARED",
-                                                       "OBJECT", "MODULE", "IMPORTED"};
+    static const std::vector<std::string> kKeywords = {"PUBLIC", "PRIVATE", "INTERFACE", "STATIC",
+                                                       "SHARED", "OBJECT",  "MODULE",    "IMPORTED"};
     return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
 }
 
@@ -88,11 +88,16 @@ std::vector<Target> scan_cmake(const std::string& path, std::string_view text) {
         Target target{arguments[0], path, command.line, {}, {}};
         bool into_links = links;
         for (size_t i = 1; i < arguments.size(); ++i) {
-            if (is_ours && arguments[i] == "SOURCES") into_links = false;
-            else if (is_ours && is_keyword(arguments[i])) into_links = true;
-            else if (is_keyword(arguments[i])) continue;
-            else if (into_links) target.links.push_back(bare_name(arguments[i]));
-            else target.sources.push_back(folder + arguments[i]);
+            if (is_ours && arguments[i] == "SOURCES")
+                into_links = false;
+            else if (is_ours && is_keyword(arguments[i]))
+                into_links = true;
+            else if (is_keyword(arguments[i]))
+                continue;
+            else if (into_links)
+                target.links.push_back(bare_name(arguments[i]));
+            else
+                target.sources.push_back(folder + arguments[i]);
         }
         targets.push_back(std::move(target));
     }

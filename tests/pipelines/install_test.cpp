@@ -12,18 +12,21 @@ TEST(Installed, OutsideProjectFindsItAndReadsABakedTerrain) {
     ASSERT_EQ(installed.exit, 0) << installed.output;
 
     // A copy, so that nothing of the repository is within reach.
-    auto built = shell::run("cp -r '" OVERLOOK_SOURCE_DIR "/samples/read_terrain' program\n"
+    auto built = shell::run("cp -r '" OVERLOOK_SOURCE_DIR
+                            "/samples/read_terrain' program\n"
                             "cmake -S program -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" "
-                            "-DCMAKE_CXX_COMPILER='" OVERLOOK_COMPILER "' -DCMAKE_CXX_FLAGS='" OVERLOOK_SANITIZE_FLAGS "'\n"
+                            "-DCMAKE_CXX_COMPILER='" OVERLOOK_COMPILER "' -DCMAKE_CXX_FLAGS='" OVERLOOK_SANITIZE_FLAGS
+                            "'\n"
                             "cmake --build build",
                             scratch.path());
     ASSERT_EQ(built.exit, 0) << built.output;
 
-    auto ran = shell::run("prefix/bin/make-sample dem -o sample --size 129 --quiet\n"
-                          "prefix/bin/bake-lod terrain sample/dem.tif -o sample.ovl --quiet\n"
-                          "build/read_terrain sample.ovl 0\n"
-                          "build/read_terrain sample.ovl 1e9",
-                          scratch.path());
+    auto ran = shell::run(
+        "prefix/bin/make-sample dem -o sample --size 129 --quiet\n"
+        "prefix/bin/bake-lod terrain sample/dem.tif -o sample.ovl --quiet\n"
+        "build/read_terrain sample.ovl 0\n"
+        "build/read_terrain sample.ovl 1e9",
+        scratch.path());
     ASSERT_EQ(ran.exit, 0) << ran.output;
     EXPECT_NE(ran.output.find("samples: 129 x 129\n"), std::string::npos) << ran.output;
     EXPECT_NE(ran.output.find("triangles within 1e+09 m: 2\n"), std::string::npos) << ran.output;

@@ -8,7 +8,9 @@ namespace {
 
 const std::string kRoot = OVERLOOK_SOURCE_DIR;
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 TEST(Pipelines, SayTheirStepsInOrderWithoutTakingThem) {
     auto quickstart = shell::run("env -u DISPLAY -u WAYLAND_DISPLAY pipelines/quickstart --dry-run", kRoot);

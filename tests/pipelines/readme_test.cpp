@@ -1,8 +1,8 @@
 // Every fenced block of the README does what it shows.
 //
-// Lines that start a pipeline would build and test all over again from within a test: `pipelines/X` is run with --dry-run and `make -C pipelines X`
-// with make's -n, from the root of the repository; both then show the steps that they would take. All other lines are run as they stand,
-// in an empty folder, with the commands of this build.
+// Lines that start a pipeline would build and test all over again from within a test: `pipelines/X` is run with --dry-run and
+// `make -C pipelines X` with make's -n, from the root of the repository; both then show the steps that they would take. All other
+// lines are run as they stand, in an empty folder, with the commands of this build.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -63,7 +63,8 @@ TEST(Readme, ShowsPipelinesThatExist) {
             auto ran = shell::run(line + (line.starts_with("make") ? " -n" : " --dry-run"), kRoot);
             EXPECT_EQ(ran.exit, 0) << line << "\n" << ran.output;
             EXPECT_NE(ran.output.find(line.starts_with("make") ? "bake-lod terrain" : "== 1/"), std::string::npos)
-                << line << " shows no steps:\n" << ran.output;
+                << line << " shows no steps:\n"
+                << ran.output;
         }
     }
 }

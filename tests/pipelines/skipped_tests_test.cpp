@@ -25,9 +25,9 @@ class SkippedTests : public testing::Test {
         shell::write_file(scratch_.path() + "/output", output);
         shell::write_file(scratch_.path() + "/log", kLog);
         shell::write_file(scratch_.path() + "/allowed", allowed);
-        return shell::run("env -u CI -u OVERLOOK_DATA " + environment +
-                              " '" OVERLOOK_SOURCE_DIR "/pipelines/skipped-tests' output log allowed",
-                          scratch_.path());
+        return shell::run(
+            "env -u CI -u OVERLOOK_DATA " + environment + " '" OVERLOOK_SOURCE_DIR "/pipelines/skipped-tests' output log allowed",
+            scratch_.path());
     }
     shell::Scratch scratch_;
 };
@@ -52,7 +52,9 @@ TEST_F(SkippedTests, FailInCiWhenNoLineAllowsThem) {
     EXPECT_EQ(count("", "without-data OVERLOOK_DATA\n").exit, 0) << "outside of CI they are only said";
 }
 
-TEST_F(SkippedTests, RefuseAConditionThatIsNone) { EXPECT_NE(count("CI=true", "sometimes .*\n").exit, 0); }
+TEST_F(SkippedTests, RefuseAConditionThatIsNone) {
+    EXPECT_NE(count("CI=true", "sometimes .*\n").exit, 0);
+}
 
 TEST_F(SkippedTests, AreNoneWhereAllRan) {
     auto ran = count("CI=true", kAllowed, "100% tests passed, 0 tests failed out of 3\n");

@@ -22,7 +22,8 @@ struct Ran {
 };
 
 // A command "tool terrain" with an option of its own, run with these arguments.
-Ran run_with(std::vector<std::string> arguments, const std::function<int()>& body = [] { return 0; }) {
+Ran run_with(
+    std::vector<std::string> arguments, const std::function<int()>& body = [] { return 0; }) {
     Ran ran;
     CLI::App app("A tool", "tool");
     CLI::App* verb = app.add_subcommand("terrain", "A verb");
@@ -55,10 +56,17 @@ TEST(Command, PrintsHelpAndVersionOnStandardOutput) {
 }
 
 TEST(Command, RefusesNonsenseInOneLineAndExits2) {
-    const std::vector<std::vector<std::string>> wrong{
-        {}, {"terain"}, {"terrain", "--tolerence", "3"}, {"terrain", "--threads", "-1"}, {"terrain", "--threads", "x"},
-        {"terrain", "--memory", "5Q"}, {"terrain", "--memory", "-1"}, {"terrain", "--memory", "99999999999T"},
-        {"terrain", "--progress", "often"}, {"terrain", "--quiet", "--verbose"}, {"terrain", "--tolerance"}};
+    const std::vector<std::vector<std::string>> wrong{{},
+                                                      {"terain"},
+                                                      {"terrain", "--tolerence", "3"},
+                                                      {"terrain", "--threads", "-1"},
+                                                      {"terrain", "--threads", "x"},
+                                                      {"terrain", "--memory", "5Q"},
+                                                      {"terrain", "--memory", "-1"},
+                                                      {"terrain", "--memory", "99999999999T"},
+                                                      {"terrain", "--progress", "often"},
+                                                      {"terrain", "--quiet", "--verbose"},
+                                                      {"terrain", "--tolerance"}};
     for (const auto& arguments : wrong) {
         Ran ran = run_with(arguments);
         EXPECT_EQ(ran.exit, 2) << testing::PrintToString(arguments);

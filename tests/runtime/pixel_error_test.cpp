@@ -50,7 +50,8 @@ TEST(PixelErrorBound, HoldsForEveryPointOfASphereAnywhereInTheFrame) {
         double bound = error_px_bound_of_sphere(camera, middle, radius * (1 + 1e-9), error);
         double moved_depth = glm::dot(moved, axes.forward);
         ASSERT_GT(moved_depth, 0);
-        double moved_px = std::hypot(focal * glm::dot(moved, axes.right) / moved_depth - x, focal * glm::dot(moved, axes.up) / moved_depth - y);
+        double moved_px =
+            std::hypot(focal * glm::dot(moved, axes.right) / moved_depth - x, focal * glm::dot(moved, axes.up) / moved_depth - y);
         ASSERT_LE(moved_px, bound * (1 + 1e-9)) << seed;
         nearest = std::max(nearest, moved_px / bound);
     }
@@ -67,7 +68,8 @@ TEST(Camera, IsReadFromFiveOrSixNumbers) {
 }
 
 TEST(Camera, RefusesWhatIsNoPose) {
-    for (const char* text : {"", "1,2,3,4", "1,2,3,4,5,6,7", "a,2,3,4,5", "1,2,3,4,5,", "1,2,nan,4,5", "1,2,3,4,95", "1,2,3,4,5,0", "1,2,3,4,5,175", "1 2 3 4 5"}) {
+    for (const char* text : {"", "1,2,3,4", "1,2,3,4,5,6,7", "a,2,3,4,5", "1,2,3,4,5,", "1,2,nan,4,5", "1,2,3,4,95",
+                             "1,2,3,4,5,0", "1,2,3,4,5,175", "1 2 3 4 5"}) {
         auto camera = parse_camera(text);
         ASSERT_FALSE(camera.has_value()) << text;
         EXPECT_EQ(camera.error().exit, Exit::bad_command);

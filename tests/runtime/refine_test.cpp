@@ -24,9 +24,11 @@ Terrain baked(const dem::Raster& dem) {
 view::Camera random_camera(const Terrain& terrain, uint64_t seed) {
     auto share = [&](uint64_t i) { return test::random_share(77, seed, i); };
     view::Camera camera;
-    double east_m = terrain.shape.width * terrain.frame.metres_per_column, south_m = terrain.shape.height * terrain.frame.metres_per_row;
+    double east_m = terrain.shape.width * terrain.frame.metres_per_column,
+           south_m = terrain.shape.height * terrain.frame.metres_per_row;
     double reach = seed % 5 == 0 ? 3 : 1;
-    camera.position_m = {east_m * (0.5 + reach * (share(0) - 0.5)), -south_m * (0.5 + reach * (share(1) - 0.5)), 500 + 3000 * share(2) * share(3)};
+    camera.position_m = {east_m * (0.5 + reach * (share(0) - 0.5)), -south_m * (0.5 + reach * (share(1) - 0.5)),
+                         500 + 3000 * share(2) * share(3)};
     camera.heading_deg = 360 * share(4);
     camera.pitch_deg = 100 * share(5) - 80;
     camera.fov_y_deg = 20 + 90 * share(6);
@@ -34,7 +36,9 @@ view::Camera random_camera(const Terrain& terrain, uint64_t seed) {
     return camera;
 }
 
-double random_tolerance_px(uint64_t seed) { return 0.5 * std::pow(16.0, test::random_share(78, seed)); }
+double random_tolerance_px(uint64_t seed) {
+    return 0.5 * std::pow(16.0, test::random_share(78, seed));
+}
 
 // Vertices of a cut that lie in the middle of one of its edges: each is a crack.
 size_t count_t_junctions(const Terrain& terrain, const Cut& cut) {
@@ -83,7 +87,8 @@ bool is_in_frame(const view::Camera& camera, const Screen& s) {
     return s.depth >= camera.near_m && std::abs(s.x) <= camera.width_px / 2.0 && std::abs(s.y) <= camera.height_px / 2.0;
 }
 
-// The greatest distance on the screen between a sample in the frame and the drawn point above or below it, over all triangles of a cut.
+// The greatest distance on the screen between a sample in the frame and the drawn point above or below it, over all triangles of
+// a cut.
 double greatest_displacement_px(const Terrain& terrain, const view::Camera& camera, const Cut& cut) {
     view::Axes axes = view::axes_of(camera);
     const Frame& frame = terrain.frame;
@@ -99,7 +104,9 @@ double greatest_displacement_px(const Terrain& terrain, const view::Camera& came
         double area = double((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]));
         for (int64_t row = std::min({y[0], y[1], y[2]}); row <= std::max({y[0], y[1], y[2]}); ++row)
             for (int64_t column = std::min({x[0], x[1], x[2]}); column <= std::max({x[0], x[1], x[2]}); ++column) {
-                auto side = [&](int p, int q) { return double((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p])) / area; };
+                auto side = [&](int p, int q) {
+                    return double((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p])) / area;
+                };
                 double a = side(1, 2), b = side(2, 0), c = side(0, 1);
                 if (a < 0 || b < 0 || c < 0) continue;
                 double east_m = double(column) * frame.metres_per_column, north_m = -double(row) * frame.metres_per_row;
@@ -145,13 +152,16 @@ TEST(PixelCut, ShowsEverythingInTheFrame) {
             int64_t sign = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]) > 0 ? 1 : -1;
             for (int64_t row = 0; row < 65; ++row)
                 for (int64_t column = 0; column < 65; ++column) {
-                    auto side = [&](int p, int q) { return sign * ((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p])); };
+                    auto side = [&](int p, int q) {
+                        return sign * ((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p]));
+                    };
                     if (side(0, 1) >= 0 && side(1, 2) >= 0 && side(2, 0) >= 0) is_covered[size_t(row * 65 + column)] = 1;
                 }
         }
         for (uint32_t row = 0; row < 65; ++row)
             for (uint32_t column = 0; column < 65; ++column) {
-                glm::dvec3 p{column * terrain.frame.metres_per_column, -(row * terrain.frame.metres_per_row), terrain.height_m(column, row)};
+                glm::dvec3 p{column * terrain.frame.metres_per_column, -(row * terrain.frame.metres_per_row),
+                             terrain.height_m(column, row)};
                 bool is_missing = is_in_frame(camera, project(camera, axes, p)) && !is_covered[row * 65 + column];
                 ASSERT_FALSE(is_missing) << "camera " << seed << " at " << column << ", " << row;
             }

@@ -26,19 +26,22 @@ TEST(BrokenGeoTiff, IsRefusedAtEveryTruncatedLength) {
         const std::string whole = small(is_big_tiff).bytes();
         ASSERT_TRUE(dem::open(scratch.write("whole.tif", whole), kNone));
         for (size_t length = 0; length < whole.size(); ++length)
-            ASSERT_NO_FATAL_FAILURE(expect_refused(scratch.write("cut.tif", whole.substr(0, length)), kNone, Exit::bad_input, "cut.tif: "));
+            ASSERT_NO_FATAL_FAILURE(
+                expect_refused(scratch.write("cut.tif", whole.substr(0, length)), kNone, Exit::bad_input, "cut.tif: "));
     }
 }
 
 TEST(BrokenGeoTiff, RealFilesAreRefusedAtEveryFortiethOfTheirLength) {
     const Scratch scratch;
-    for (const char* file : {"dem/everest_srtm3_voids.tif", "dem/greenriver_lidar_1m.tif", "dem/small_nodata_3857.tif", "dem/bigtujunga_utm11.tif"}) {
+    for (const char* file : {"dem/everest_srtm3_voids.tif", "dem/greenriver_lidar_1m.tif", "dem/small_nodata_3857.tif",
+                             "dem/bigtujunga_utm11.tif"}) {
         const std::string path = data_file(file);
         OVERLOOK_NEED_DATA(path);
         const std::string whole = file_bytes(path);
         // GDAL may end a file with four bytes after its last tile.
         for (size_t part = 0; part < 40; ++part)
-            expect_refused(scratch.write("cut.tif", whole.substr(0, whole.size() * part / 40)), kNone, Exit::bad_input, "cut.tif: ");
+            expect_refused(scratch.write("cut.tif", whole.substr(0, whole.size() * part / 40)), kNone, Exit::bad_input,
+                           "cut.tif: ");
         expect_refused(scratch.write("cut.tif", whole.substr(0, whole.size() - 5)), kNone, Exit::bad_input, "cut.tif: ");
     }
 }

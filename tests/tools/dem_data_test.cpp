@@ -20,8 +20,8 @@ struct Known {
     const char* crs;
 };
 
-// Cell sizes: of degrees by the ellipsoid's closed forms at the middle (georeference_test proves the code against them); of UTM the
-// step over the point scale; of web mercator the step times its two scales.
+// Cell sizes: of degrees by the ellipsoid's closed forms at the middle (georeference_test proves the code against them); of UTM
+// the step over the point scale; of web mercator the step times its two scales.
 void expect_known(const Known& known) {
     const std::string path = data_file(std::string("dem/") + known.file);
     OVERLOOK_NEED_DATA(path);
@@ -61,7 +61,8 @@ TEST(RealElevationModel, WebMercatorRasterShrinksToTrueMetres) {
 }
 
 TEST(RealElevationModel, WindowIsPartOfTheWhole) {
-    for (const char* file : {"dem/everest_srtm3_voids.tif", "dem/greenriver_lidar_1m.tif", "dem/small_nodata_3857.tif", "dem/N44W072.hgt"}) {
+    for (const char* file :
+         {"dem/everest_srtm3_voids.tif", "dem/greenriver_lidar_1m.tif", "dem/small_nodata_3857.tif", "dem/N44W072.hgt"}) {
         const std::string path = data_file(file);
         OVERLOOK_NEED_DATA(path);
         const Result<dem::Raster> whole = dem::open(path, {});

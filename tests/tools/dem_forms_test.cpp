@@ -51,7 +51,8 @@ TEST(SrtmTile, RefusesLengthsThatAreNoSquare) {
     const Scratch scratch;
     const std::string tile = small_tile();
     for (const size_t length : {1u, 2u, 7u, 9u, 16u, 17u})
-        expect_refused(scratch.write("N44W072.hgt", tile.substr(0, length)), kNone, Exit::bad_input, "no square of 16-bit samples");
+        expect_refused(scratch.write("N44W072.hgt", tile.substr(0, length)), kNone, Exit::bad_input,
+                       "no square of 16-bit samples");
     expect_refused(scratch.write("N44W072.hgt", ""), kNone, Exit::bad_input, "is empty");
 }
 
@@ -68,12 +69,14 @@ TEST(SrtmTile, RefusesNamesWithoutAPlace) {
 
 TEST(GreyPng, KeepsStoredValuesOf8And16Bits) {
     const Scratch scratch;
-    const Result<dem::Raster> bytes = dem::open(scratch.write("a.png", make_png(3, 2, 8, 0, std::string("\x00\x01\x7f\x80\xfe\xff", 6))), with_cells(5));
+    const Result<dem::Raster> bytes =
+        dem::open(scratch.write("a.png", make_png(3, 2, 8, 0, std::string("\x00\x01\x7f\x80\xfe\xff", 6))), with_cells(5));
     ASSERT_TRUE(bytes) << bytes.error().message;
     EXPECT_EQ(bytes->samples, (std::vector<float>{0, 1, 127, 128, 254, 255}));
     dem::Options options = with_cells(5);
     options.height_scale_m = 0.5;
-    const Result<dem::Raster> words = dem::open(scratch.write("b.png", make_png(2, 2, 16, 0, std::string("\x00\x01\x01\x00\x80\x01\xff\xfe", 8))), options);
+    const Result<dem::Raster> words =
+        dem::open(scratch.write("b.png", make_png(2, 2, 16, 0, std::string("\x00\x01\x01\x00\x80\x01\xff\xfe", 8))), options);
     ASSERT_TRUE(words) << words.error().message;
     EXPECT_EQ(words->samples, (std::vector<float>{1, 256, 32769, 65534}));
     EXPECT_EQ(words->height_scale_m, 0.5);
@@ -112,8 +115,10 @@ TEST(ElevationModel, RefusesFilesOfOtherForms) {
     const Scratch scratch;
     expect_refused(scratch.path("missing.tif"), kNone, Exit::bad_input, "No such file");
     expect_refused(scratch.write("empty.tif", ""), kNone, Exit::bad_input, "is empty");
-    expect_refused(scratch.write("text.tif", "ncols 4\nnrows 4\n"), kNone, Exit::bad_input, "GeoTIFF (.tif), SRTM (.hgt), grey PNG (.png)");
-    expect_refused(scratch.write("a.asc", "ncols 4\nnrows 4\n"), kNone, Exit::bad_input, "GeoTIFF (.tif), SRTM (.hgt), grey PNG (.png)");
+    expect_refused(scratch.write("text.tif", "ncols 4\nnrows 4\n"), kNone, Exit::bad_input,
+                   "GeoTIFF (.tif), SRTM (.hgt), grey PNG (.png)");
+    expect_refused(scratch.write("a.asc", "ncols 4\nnrows 4\n"), kNone, Exit::bad_input,
+                   "GeoTIFF (.tif), SRTM (.hgt), grey PNG (.png)");
     expect_refused(scratch.path(""), kNone, Exit::bad_input, "");
 }
 
@@ -128,7 +133,8 @@ TEST(Picture, IsSpreadToRgbWithoutAlpha) {
     EXPECT_EQ(pixels(make_png(2, 1, 8, 0, "ab")), (std::vector<uint8_t>{'a', 'a', 'a', 'b', 'b', 'b'}));
     EXPECT_EQ(pixels(make_png(1, 1, 8, 6, std::string("abc\x10", 4))), (std::vector<uint8_t>{'a', 'b', 'c'}));
     EXPECT_EQ(pixels(make_png(1, 1, 16, 0, std::string("\x80\x00", 2))), (std::vector<uint8_t>{128, 128, 128}));
-    EXPECT_EQ(pixels(make_png(1, 1, 8, 3, std::string(1, '\1'), png_chunk("PLTE", "abcdef"))), (std::vector<uint8_t>{'d', 'e', 'f'}));
+    EXPECT_EQ(pixels(make_png(1, 1, 8, 3, std::string(1, '\1'), png_chunk("PLTE", "abcdef"))),
+              (std::vector<uint8_t>{'d', 'e', 'f'}));
 }
 
 TEST(Picture, RefusesWhatDoesNotDecodeWithoutPrinting) {

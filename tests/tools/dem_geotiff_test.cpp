@@ -60,8 +60,10 @@ TEST(GeoTiff, TurnsNodataAndNanIntoVoids) {
         return raster ? int(raster->void_count) : -1;
     };
     EXPECT_EQ(voids(small_utm<int16_t>({-32768, 1, 2, -32768, 3, 4}).text(42113, "-32768"), kNone), 2);
-    EXPECT_EQ(voids(small_utm<float>({1.70141000918782799e+38f, 1, 2, 3, nan, 5}).text(42113, "1.70141000918782799e+38"), kNone), 2);
-    EXPECT_EQ(voids(small_utm<float>({-3.4028234663852886e+38f, 1, 2, 3, 4, 5}).text(42113, "-3.4028234663852886e+38"), kNone), 1);
+    EXPECT_EQ(voids(small_utm<float>({1.70141000918782799e+38f, 1, 2, 3, nan, 5}).text(42113, "1.70141000918782799e+38"), kNone),
+              2);
+    EXPECT_EQ(voids(small_utm<float>({-3.4028234663852886e+38f, 1, 2, 3, 4, 5}).text(42113, "-3.4028234663852886e+38"), kNone),
+              1);
     EXPECT_EQ(voids(small_utm<float>({-std::numeric_limits<float>::infinity(), 1, 2, 3, 4, 5}).text(42113, "-inf"), kNone), 1);
     EXPECT_EQ(voids(small_utm<float>({nan, 1, 2, 3, 4, 5}).text(42113, "nan"), kNone), 1);
     EXPECT_EQ(voids(small_utm<float>({0.1f, 1, 2, 3, 4, 5}).text(42113, "0.1"), kNone), 1);
@@ -100,8 +102,8 @@ TEST(GeoTiff, TakesHeightsInFeet) {
     EXPECT_EQ(scale({{4099, 9003}}, kNone), 1200.0 / 3937.0);
     EXPECT_EQ(scale({{4096, 6360}}, kNone), 1200.0 / 3937.0);
     EXPECT_EQ(scale({{4099, 9002}}, doubled), 2);
-    expect_refused(scratch.write("u.tif", small_utm<int16_t>({1, 2, 3, 4, 5, 6}).keys({{3072, 32611}, {4099, 9036}}).bytes()), kNone,
-                   Exit::bad_input, "unit 9036");
+    expect_refused(scratch.write("u.tif", small_utm<int16_t>({1, 2, 3, 4, 5, 6}).keys({{3072, 32611}, {4099, 9036}}).bytes()),
+                   kNone, Exit::bad_input, "unit 9036");
 }
 
 TEST(GeoTiff, ReadsWindowsOfStripsAsOfTheWhole) {
@@ -146,7 +148,11 @@ TEST(GeoTiff, MirrorsRastersThatAreStoredSouthFirstOrWestward) {
 TEST(GeoTiff, TakesGdalsScaleAndOffset) {
     const Scratch scratch;
     const auto opened = [&](const std::string& items, const dem::Options& options) {
-        return dem::open(scratch.write("s.tif", small_utm<int16_t>({1, 2, 3, 4, 5, 6}).text(42112, "<GDALMetadata>" + items + "</GDALMetadata>").bytes()), options);
+        return dem::open(
+            scratch.write(
+                "s.tif",
+                small_utm<int16_t>({1, 2, 3, 4, 5, 6}).text(42112, "<GDALMetadata>" + items + "</GDALMetadata>").bytes()),
+            options);
     };
     const std::string scale = "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.1</Item>",
                       offset = "<Item name=\"OFFSET\" sample=\"0\" role=\"offset\">-100</Item>",
@@ -217,7 +223,10 @@ TEST(GeoTiff, RefusesGridsWithoutRightAngles) {
     const Scratch scratch;
     const auto with_transform = [&](double cx, double rx, double cy, double ry, uint16_t code, uint16_t key) {
         TiffMaker tiff = small_utm<int16_t>({1, 2, 3, 4, 5, 6});
-        tiff.without(33550).without(33922).doubles(34264, {cx, rx, 0, 10, cy, ry, 0, 20, 0, 0, 0, 0, 0, 0, 0, 1}).keys({{key, code}});
+        tiff.without(33550)
+            .without(33922)
+            .doubles(34264, {cx, rx, 0, 10, cy, ry, 0, 20, 0, 0, 0, 0, 0, 0, 0, 1})
+            .keys({{key, code}});
         return scratch.write("g.tif", tiff.bytes());
     };
     expect_refused(with_transform(30, 10, 0, -30, 32611, 3072), kNone, Exit::bad_input, "sheared");

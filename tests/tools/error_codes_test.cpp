@@ -26,7 +26,8 @@ TEST(ErrorCodes, NeverLowerAnError) {
     ErrorCodes coded = encode_errors(errors, 1, 0.25);
     for (size_t level = 0; level < errors.size(); ++level)
         for (size_t i = 0; i < errors[level].size(); ++i)
-            EXPECT_GE(double(coded.error_m[coded.codes[level][i]]), (errors[level][i] == 0 ? 0 : double(errors[level][i])) + 0.25);
+            EXPECT_GE(double(coded.error_m[coded.codes[level][i]]),
+                      (errors[level][i] == 0 ? 0 : double(errors[level][i])) + 0.25);
 }
 
 TEST(ErrorCodes, KeepTheOrderOfErrors) {
@@ -52,7 +53,8 @@ TEST(ErrorCodes, LoseNothingAtRoundTolerances) {
     ErrorCodes coded = encode_errors(errors, 1, 0);
     for (float tolerance_m : {0.05f, 0.1f, 1.0f, 2.0f, 5.0f, 20.0f, 100.0f, 500.0f})
         for (size_t i = 0; i < errors[2].size(); ++i)
-            EXPECT_EQ(coded.error_m[coded.codes[2][i]] <= tolerance_m, errors[2][i] <= tolerance_m) << errors[2][i] << " at " << tolerance_m;
+            EXPECT_EQ(coded.error_m[coded.codes[2][i]] <= tolerance_m, errors[2][i] <= tolerance_m)
+                << errors[2][i] << " at " << tolerance_m;
 }
 
 TEST(ErrorCodes, KeepVoidsAndZeroesApart) {

@@ -16,7 +16,9 @@ using dem::GridPlacement;
 constexpr double kRadius_m = 6378137, kFlattening = 1 / 298.257223563;
 constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
 double across_m(double latitude_deg) {  // of one degree of longitude
     const double sine = std::sin(radians(latitude_deg));
     return radians(1) * kRadius_m * std::cos(radians(latitude_deg)) / std::sqrt(1 - kEccentricity2 * sine * sine);
@@ -51,7 +53,8 @@ TEST(Frame, OfDegreesStatesItsGreatestDistortion) {
     // The equator, the widest place, lies inside and on no sample.
     const double latitude_deg = 30.3;
     EXPECT_NEAR(frame(4326, {0, latitude_deg + 31, 1, 0, 0, -1}, 11, 63).scale_distortion,
-                std::max(across_m(0) / across_m(latitude_deg) - 1, 1 - across_m(latitude_deg + 31) / across_m(latitude_deg)), 1e-12);
+                std::max(across_m(0) / across_m(latitude_deg) - 1, 1 - across_m(latitude_deg + 31) / across_m(latitude_deg)),
+                1e-12);
 }
 
 TEST(Frame, OfUtmIsTrueToScaleAndTurn) {

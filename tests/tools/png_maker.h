@@ -43,7 +43,8 @@ inline std::string make_png(uint32_t width, uint32_t height, int bit_depth, int 
     }
     stream += big_endian_32(b << 16 | a);
 
-    const std::string header = big_endian_32(width) + big_endian_32(height) + std::string{char(bit_depth), char(colour_type), 0, 0, 0};
+    const std::string header =
+        big_endian_32(width) + big_endian_32(height) + std::string{char(bit_depth), char(colour_type), 0, 0, 0};
     return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + extra + png_chunk("IDAT", stream) + png_chunk("IEND", "");
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "formats/terrain_check.h"
-#include "tests/tools/synthetic_dem.h"
 #include "runtime/terrain/refine.h"
+#include "tests/tools/synthetic_dem.h"
 #include "tools/baked/prove_terrain.h"
 
 namespace overlook::terrain {
@@ -31,7 +31,8 @@ TEST(TerrainBake, KeepsWholeNumbersExactly) {
 }
 
 TEST(TerrainBake, CountsTheRoundingOfHeightsTowardsEveryError) {
-    dem::Raster dem = test::make_dem(33, 33, [](uint32_t x, uint32_t y) { return float(test::random_share(3, x, y) * 40); }, false);
+    dem::Raster dem = test::make_dem(
+        33, 33, [](uint32_t x, uint32_t y) { return float(test::random_share(3, x, y) * 40); }, false);
     Terrain terrain = baked(dem, {0.5});
     EXPECT_GT(terrain.finest_error_m, 0.2);
     EXPECT_LE(terrain.finest_error_m, 0.25);
@@ -40,7 +41,8 @@ TEST(TerrainBake, CountsTheRoundingOfHeightsTowardsEveryError) {
 }
 
 TEST(TerrainBake, KeepsItsPromisesOnAnyRasterSize) {
-    for (auto [width, height] : {std::pair{2u, 2u}, {2u, 30u}, {3u, 3u}, {64u, 65u}, {65u, 65u}, {66u, 67u}, {130u, 31u}, {257u, 200u}}) {
+    for (auto [width, height] :
+         {std::pair{2u, 2u}, {2u, 30u}, {3u, 3u}, {64u, 65u}, {65u, 65u}, {66u, 67u}, {130u, 31u}, {257u, 200u}}) {
         dem::Raster dem = test::make_hills(width, height, width + height);
         Proof proof = prove(baked(dem), source_of(dem), kTolerances_m, [](double) {});
         EXPECT_TRUE(proof.holds()) << width << " x " << height;
@@ -65,7 +67,8 @@ TEST(TerrainBake, NestsItsCodes) {
 }
 
 TEST(TerrainBake, SaysWhichStepTheHeightsNeed) {
-    dem::Raster dem = test::make_dem(4, 4, [](uint32_t, uint32_t) { return 9000.5f; }, false);
+    dem::Raster dem = test::make_dem(
+        4, 4, [](uint32_t, uint32_t) { return 9000.5f; }, false);
     auto terrain = bake(dem, {1e-6}, [](double) {});
     ASSERT_FALSE(terrain.has_value());
     EXPECT_EQ(terrain.error().exit, Exit::impossible);

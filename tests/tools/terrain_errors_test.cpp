@@ -56,7 +56,8 @@ class BruteForce {
         double area = turn(p[0], p[1], p[2]), worst = 0;
         for (uint32_t y = 0; y < shape_.height; ++y)
             for (uint32_t x = 0; x < shape_.width; ++x) {
-                double a = turn(p[1], p[2], {x, y}) / area, b = turn(p[2], p[0], {x, y}) / area, c = turn(p[0], p[1], {x, y}) / area;
+                double a = turn(p[1], p[2], {x, y}) / area, b = turn(p[2], p[0], {x, y}) / area,
+                       c = turn(p[0], p[1], {x, y}) / area;
                 if (a < 0 || b < 0 || c < 0) continue;
                 if (at({x, y}) == kVoid) return INFINITY;
                 double z = a * at(p[0]) + b * at(p[1]) + c * at(p[2]);
@@ -89,8 +90,10 @@ int expect_equal_to_brute_force(const dem::Raster& dem) {
                 if (((i | j) & 1) == 0) continue;
                 Triangle triangles[2];
                 int count = triangles_of_diamond(shape, i << level, j << level, level, triangles);
-                if (std::all_of(triangles, triangles + count, [&](const Triangle& t) { return is_degenerate(shape, t); })) continue;
-                double expected = truth.error(i << level, j << level, level), measured = errors[level][size_t(j) * grid.columns + i];
+                if (std::all_of(triangles, triangles + count, [&](const Triangle& t) { return is_degenerate(shape, t); }))
+                    continue;
+                double expected = truth.error(i << level, j << level, level),
+                       measured = errors[level][size_t(j) * grid.columns + i];
                 bool is_equal = measured == expected || std::abs(measured - expected) < 1e-4;
                 EXPECT_TRUE(is_equal) << measured << ", truth " << expected << " at " << i << "," << j << " level " << level;
                 ++compared;
@@ -110,7 +113,8 @@ TEST(SplitErrors, EqualThemWhereTheRasterSqueezesTheGrid) {
 }
 
 TEST(SplitErrors, AreInfiniteWhereverAVoidIsCovered) {
-    for (auto [width, height] : {std::pair{17u, 17u}, {13u, 22u}, {31u, 9u}}) expect_equal_to_brute_force(test::make_hills(width, height, 5, 0.15));
+    for (auto [width, height] : {std::pair{17u, 17u}, {13u, 22u}, {31u, 9u}})
+        expect_equal_to_brute_force(test::make_hills(width, height, 5, 0.15));
 }
 
 TEST(SplitErrors, OfAPlaneAreZeroWhereTheGridIsNotSqueezed) {

@@ -66,8 +66,7 @@ TEST(Landscape, IsTheSameWithAnyThreadCount) {
 // landscape itself.
 TEST(Landscape, IsTheSameWithAnyCompiler) {
     uint64_t hash = 0;
-    for (float height_m : make_landscape(small(1)).height_m)
-        hash = hash_of(hash, uint64_t(height_m / kHeightStepM), 0);
+    for (float height_m : make_landscape(small(1)).height_m) hash = hash_of(hash, uint64_t(height_m / kHeightStepM), 0);
     EXPECT_EQ(hash, 5729445652592228459u);
 }
 

@@ -16,15 +16,13 @@ namespace {
 using relief::Field;
 
 // Heights from columns and rows, cells of 10 m.
-dem::Raster raster_of(uint32_t width, uint32_t height,
-                      const std::function<double(uint32_t, uint32_t)>& height_m) {
+dem::Raster raster_of(uint32_t width, uint32_t height, const std::function<double(uint32_t, uint32_t)>& height_m) {
     dem::Raster dem;
     dem.width = width;
     dem.height = height;
     dem.frame.metres_per_column = dem.frame.metres_per_row = 10;
     for (uint32_t row = 0; row < height; ++row)
-        for (uint32_t column = 0; column < width; ++column)
-            dem.samples.push_back(float(height_m(column, row)));
+        for (uint32_t column = 0; column < width; ++column) dem.samples.push_back(float(height_m(column, row)));
     return dem;
 }
 
@@ -39,23 +37,20 @@ Pixel pixel(const ImageRgb8& image, uint32_t column, uint32_t row) {
 }
 
 dem::Raster hills() {
-    return raster_of(
-        150, 90, [](uint32_t x, uint32_t y) { return 300 * std::sin(x * 0.11) * std::cos(y * 0.07) + x; });
+    return raster_of(150, 90, [](uint32_t x, uint32_t y) { return 300 * std::sin(x * 0.11) * std::cos(y * 0.07) + x; });
 }
 
 TEST(Relief, ColoursFlatGroundUniformly) {
     for (double height_m : {0.0, -420.0, 8000.0}) {
         ImageRgb8 image = shade_relief(raster_of(60, 40, [=](uint32_t, uint32_t) { return height_m; }), {});
         for (uint32_t row = 0; row < 40; ++row)
-            for (uint32_t column = 0; column < 60; ++column)
-                ASSERT_EQ(pixel(image, column, row), pixel(image, 0, 0));
+            for (uint32_t column = 0; column < 60; ++column) ASSERT_EQ(pixel(image, column, row), pixel(image, 0, 0));
     }
 }
 
 TEST(Relief, PaintsVoidsGreyAndOnlyThose) {
-    ImageRgb8 image = shade_relief(
-        raster_of(60, 40, [](uint32_t x, uint32_t y) { return x > 20 && x < 30 && y > 9 ? NAN : 3.0 * x; }),
-        {});
+    ImageRgb8 image =
+        shade_relief(raster_of(60, 40, [](uint32_t x, uint32_t y) { return x > 20 && x < 30 && y > 9 ? NAN : 3.0 * x; }), {});
     for (uint32_t row = 0; row < 40; ++row)
         for (uint32_t column = 0; column < 60; ++column) {
             bool is_void = column > 20 && column < 30 && row > 9;
@@ -64,8 +59,7 @@ TEST(Relief, PaintsVoidsGreyAndOnlyThose) {
 }
 
 TEST(Relief, OfNothingButVoidsIsGrey) {
-    for (uint8_t value : shade_relief(raster_of(8, 8, [](uint32_t, uint32_t) { return NAN; }), {}).pixels)
-        ASSERT_EQ(value, 128);
+    for (uint8_t value : shade_relief(raster_of(8, 8, [](uint32_t, uint32_t) { return NAN; }), {}).pixels) ASSERT_EQ(value, 128);
 }
 
 TEST(Relief, IsTheSameWithAnyThreadCount) {
@@ -81,8 +75,7 @@ TEST(Relief, IsTheSameWithAnyThreadCount) {
 TEST(Relief, IsReducedToFitWithoutLosingVoids) {
     ReliefOptions options;
     options.max_side_px = 50;
-    ImageRgb8 image =
-        shade_relief(raster_of(151, 90, [](uint32_t x, uint32_t) { return x < 4 ? NAN : 5.0 * x; }), options);
+    ImageRgb8 image = shade_relief(raster_of(151, 90, [](uint32_t x, uint32_t) { return x < 4 ? NAN : 5.0 * x; }), options);
     EXPECT_EQ(image.width, 38u);
     EXPECT_EQ(image.height, 23u);
     EXPECT_EQ(pixel(image, 0, 5), (Pixel{128, 128, 128}));
@@ -95,14 +88,12 @@ TEST(Relief, MakesSlopesTowardsTheSunBrighter) {
     };
     ReliefOptions options;
     options.sun_azimuth_deg = 270;
-    Pixel towards = pixel(shade_relief(plane(0.4), options), 30, 30),
-          away = pixel(shade_relief(plane(-0.4), options), 30, 30);
+    Pixel towards = pixel(shade_relief(plane(0.4), options), 30, 30), away = pixel(shade_relief(plane(-0.4), options), 30, 30);
     for (size_t c = 0; c < 3; ++c) EXPECT_GT(towards[c], away[c] + 20);
 }
 
 TEST(Relief, ShowsNearlyFlatGround) {
-    ImageRgb8 image =
-        shade_relief(raster_of(200, 40, [](uint32_t x, uint32_t) { return 2 * std::sin(x * 0.1); }), {});
+    ImageRgb8 image = shade_relief(raster_of(200, 40, [](uint32_t x, uint32_t) { return 2 * std::sin(x * 0.1); }), {});
     int darkest = 255, brightest = 0;
     for (uint32_t column = 20; column < 180; ++column) {
         darkest = std::min(darkest, pixel(image, column, 20)[1]);
@@ -124,16 +115,14 @@ TEST(ReliefLight, FallsFullOnAPlaneThatFacesTheSun) {
 }
 
 TEST(ReliefLight, PutsTheSunWhereTheCompassSays) {
-    relief::Vector east = relief::sun_direction(90, 0), north = relief::sun_direction(0, 0),
-                   top = relief::sun_direction(12, 90);
+    relief::Vector east = relief::sun_direction(90, 0), north = relief::sun_direction(0, 0), top = relief::sun_direction(12, 90);
     EXPECT_NEAR(east[0], 1, 1e-12);
     EXPECT_NEAR(north[1], 1, 1e-12);
     EXPECT_NEAR(top[2], 1, 1e-12);
 }
 
 TEST(ReliefLight, TakesNorthAsUpTheRaster) {
-    relief::Slopes slopes =
-        relief::slopes_of(field_of(raster_of(5, 5, [](uint32_t, uint32_t y) { return -20.0 * y; })));
+    relief::Slopes slopes = relief::slopes_of(field_of(raster_of(5, 5, [](uint32_t, uint32_t y) { return -20.0 * y; })));
     EXPECT_NEAR(slopes.up[12], 2, 1e-6);
     EXPECT_EQ(slopes.right[12], 0);
 }
@@ -142,24 +131,13 @@ TEST(ReliefLight, TakesNorthAsUpTheRaster) {
 // edge.
 TEST(ReliefLight, WallCastsAShadowAsLongAsGeometrySays) {
     for (double azimuth_deg : {0.0, 90.0, 180.0, 270.0}) {
-        Field field = field_of(raster_of(61, 61, [=](uint32_t x, uint32_t y) {
-            return (std::fmod(azimuth_deg, 180) == 0 ? y : x) == 30 ? 100.0 : 0.0;
-        }));
+        Field field = field_of(raster_of(
+            61, 61, [=](uint32_t x, uint32_t y) { return (std::fmod(azimuth_deg, 180) == 0 ? y : x) == 30 ? 100.0 : 0.0; }));
         std::vector<float> visible = relief::sun_visibility(field, azimuth_deg, 45);
-        int dx = azimuth_deg == 90    ? -1
-                 : azimuth_deg == 270 ? 1
-                                      : 0,
-            dy = azimuth_deg == 0     ? 1
-                 : azimuth_deg == 180 ? -1
-                                      : 0;
+        int dx = azimuth_deg == 90 ? -1 : azimuth_deg == 270 ? 1 : 0, dy = azimuth_deg == 0 ? 1 : azimuth_deg == 180 ? -1 : 0;
         for (int n = 1; n <= 30; ++n) {
             float share = visible[size_t(30 + n * dy) * 61 + size_t(30 + n * dx)];
-            EXPECT_NEAR(share,
-                        n < 10    ? 0
-                        : n == 10 ? 0.5
-                                  : 1,
-                        1e-5)
-                << azimuth_deg << " degrees, " << n << " cells behind";
+            EXPECT_NEAR(share, n < 10 ? 0 : n == 10 ? 0.5 : 1, 1e-5) << azimuth_deg << " degrees, " << n << " cells behind";
             EXPECT_EQ(visible[size_t(30 - n * dy) * 61 + size_t(30 - n * dx)], 1) << n << " cells before";
         }
     }
@@ -168,8 +146,7 @@ TEST(ReliefLight, WallCastsAShadowAsLongAsGeometrySays) {
 // Across the grid's diagonal the same wall, much longer than its shadow, shades 100 m measured along the
 // sun's azimuth.
 TEST(ReliefLight, ShadowIsAsLongAcrossTheDiagonal) {
-    Field field =
-        field_of(raster_of(121, 121, [](uint32_t x, uint32_t y) { return x + y <= 120 ? 100.0 : 0.0; }));
+    Field field = field_of(raster_of(121, 121, [](uint32_t x, uint32_t y) { return x + y <= 120 ? 100.0 : 0.0; }));
     std::vector<float> visible = relief::sun_visibility(field, 315, 45);
     double length_m = 0;
     for (uint32_t n = 61; n < 121; ++n) length_m += (1 - visible[size_t(n) * 121 + n]) * 10 * std::sqrt(2.0);
@@ -177,8 +154,7 @@ TEST(ReliefLight, ShadowIsAsLongAcrossTheDiagonal) {
 }
 
 TEST(ReliefLight, LevelGroundSeesAllTheSkyAndAPitLess) {
-    Field field = field_of(
-        raster_of(101, 101, [](uint32_t x, uint32_t y) { return x == 50 && y == 50 ? -10.0 : 0.0; }));
+    Field field = field_of(raster_of(101, 101, [](uint32_t x, uint32_t y) { return x == 50 && y == 50 ? -10.0 : 0.0; }));
     std::vector<float> sky = relief::sky_visibility(field, 1);
     EXPECT_EQ(sky[20 * 101 + 20], 1);
     // The brim stands 10 m up at 10 m, or at 14.1 m over the corners: cos^2 is 1/2 or 2/3.
@@ -190,8 +166,7 @@ TEST(ReliefLight, LocalMeanOfAPlaneIsThePlane) {
     Field field = field_of(raster_of(40, 30, [](uint32_t x, uint32_t y) { return 3.0 * x - 2.0 * y; }));
     std::vector<float> mean = relief::local_mean(field, 4);
     for (uint32_t row = 4; row < 26; ++row)
-        for (uint32_t column = 4; column < 36; ++column)
-            ASSERT_NEAR(mean[row * 40 + column], field.at(column, row), 1e-4);
+        for (uint32_t column = 4; column < 36; ++column) ASSERT_NEAR(mean[row * 40 + column], field.at(column, row), 1e-4);
     EXPECT_NEAR(mean[0], 3.0 * 2 - 2.0 * 2, 1e-4);
 }
 
@@ -213,10 +188,8 @@ TEST(ReliefColour, FindsALakeButNoTerraceAndNoPlain) {
     EXPECT_EQ(wet[50 * 100 + 50], 1);
     EXPECT_EQ(wet[10 * 100 + 50], 0);
     auto terraces = [](uint32_t x, uint32_t) { return std::floor(x / 30.0); };
-    for (uint8_t is_wet : relief::find_water(field_of(raster_of(120, 100, terraces)), 300))
-        ASSERT_EQ(is_wet, 0);
-    for (uint8_t is_wet :
-         relief::find_water(field_of(raster_of(90, 90, [](uint32_t, uint32_t) { return 4; })), 300))
+    for (uint8_t is_wet : relief::find_water(field_of(raster_of(120, 100, terraces)), 300)) ASSERT_EQ(is_wet, 0);
+    for (uint8_t is_wet : relief::find_water(field_of(raster_of(90, 90, [](uint32_t, uint32_t) { return 4; })), 300))
         ASSERT_EQ(is_wet, 0);
 }
 

@@ -44,10 +44,7 @@ Tiff parse(std::vector<std::byte> bytes) {
     uint32_t at = tiff.number(4, 4), count = tiff.number(at, 2), before = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t entry = at + 2 + 12 * i, tag = tiff.number(entry, 2), type = tiff.number(entry + 2, 2);
-        uint32_t values = tiff.number(entry + 4, 4), size = values * (type == 3    ? 2
-                                                                      : type == 4  ? 4
-                                                                      : type == 12 ? 8
-                                                                                   : 1);
+        uint32_t values = tiff.number(entry + 4, 4), size = values * (type == 3 ? 2 : type == 4 ? 4 : type == 12 ? 8 : 1);
         tiff.entries[tag] = {type, values, size <= 4 ? entry + 8 : tiff.number(entry + 8, 4)};
         tiff.tags_ascend = tiff.tags_ascend && tag > before;
         before = tag;

@@ -14,7 +14,8 @@ namespace overlook::test {
 
 class TiffMaker {
   public:
-    explicit TiffMaker(bool is_big_endian = false, bool is_big_tiff = false) : is_big_endian_(is_big_endian), is_big_tiff_(is_big_tiff) {}
+    explicit TiffMaker(bool is_big_endian = false, bool is_big_tiff = false)
+        : is_big_endian_(is_big_endian), is_big_tiff_(is_big_tiff) {}
 
     TiffMaker& shorts(uint16_t tag, const std::vector<uint16_t>& values) { return set(tag, 3, values); }
     TiffMaker& longs(uint16_t tag, const std::vector<uint32_t>& values) { return set(tag, 4, values); }
@@ -35,7 +36,12 @@ class TiffMaker {
     template <class T>
     TiffMaker& raster(uint32_t width, uint32_t height, const std::vector<T>& samples) {
         const bool is_real = std::is_floating_point_v<T>;
-        longs(256, {width}).longs(257, {height}).shorts(258, {uint16_t(8 * sizeof(T))}).shorts(259, {1}).shorts(262, {1}).shorts(277, {1});
+        longs(256, {width})
+            .longs(257, {height})
+            .shorts(258, {uint16_t(8 * sizeof(T))})
+            .shorts(259, {1})
+            .shorts(262, {1})
+            .shorts(277, {1});
         longs(278, {height}).shorts(339, {uint16_t(is_real ? 3 : std::is_signed_v<T> ? 2 : 1)});
         longs(279, {uint32_t(samples.size() * sizeof(T))}).longs(273, {0});
         pixels_.clear();

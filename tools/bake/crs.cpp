@@ -39,26 +39,19 @@ struct UtmRange {
     const Ellipsoid& ellipsoid;
 };
 constexpr UtmRange kUtm[] = {
-    {32601, 32660, 1, false, kWgs84},       // WGS 84
-    {32701, 32760, 1, true, kWgs84},
-    {25828, 25838, 28, false, kGrs80},      // ETRS89
-    {26701, 26722, 1, false, kClarke1866},  // NAD27
-    {26901, 26923, 1, false, kGrs80},       // NAD83
-    {3372, 3373, 59, false, kGrs80},
-    {2955, 2957, 11, false, kGrs80},        // NAD83(CSRS)
-    {2958, 2962, 17, false, kGrs80},
-    {3154, 3157, 7, false, kGrs80},
-    {3158, 3160, 14, false, kGrs80},
-    {3706, 3707, 59, false, kGrs80},        // NAD83(NSRS2007)
-    {3708, 3726, 1, false, kGrs80},
-    {6328, 6329, 59, false, kGrs80},        // NAD83(2011)
-    {6330, 6348, 1, false, kGrs80},
-    {28348, 28358, 48, true, kGrs80},       // GDA94, as MGA
-    {7846, 7859, 46, true, kGrs80},         // GDA2020, as MGA
-    {31965, 31976, 11, false, kGrs80},      // SIRGAS 2000
-    {31977, 31985, 17, true, kGrs80},
-    {3097, 3101, 51, false, kGrs80},        // JGD2000
-    {6688, 6692, 51, false, kGrs80},        // JGD2011
+    {32601, 32660, 1, false, kWgs84},                                          // WGS 84
+    {32701, 32760, 1, true, kWgs84},       {25828, 25838, 28, false, kGrs80},  // ETRS89
+    {26701, 26722, 1, false, kClarke1866},                                     // NAD27
+    {26901, 26923, 1, false, kGrs80},                                          // NAD83
+    {3372, 3373, 59, false, kGrs80},       {2955, 2957, 11, false, kGrs80},    // NAD83(CSRS)
+    {2958, 2962, 17, false, kGrs80},       {3154, 3157, 7, false, kGrs80},
+    {3158, 3160, 14, false, kGrs80},       {3706, 3707, 59, false, kGrs80},   // NAD83(NSRS2007)
+    {3708, 3726, 1, false, kGrs80},        {6328, 6329, 59, false, kGrs80},   // NAD83(2011)
+    {6330, 6348, 1, false, kGrs80},        {28348, 28358, 48, true, kGrs80},  // GDA94, as MGA
+    {7846, 7859, 46, true, kGrs80},                                           // GDA2020, as MGA
+    {31965, 31976, 11, false, kGrs80},                                        // SIRGAS 2000
+    {31977, 31985, 17, true, kGrs80},      {3097, 3101, 51, false, kGrs80},   // JGD2000
+    {6688, 6692, 51, false, kGrs80},                                          // JGD2011
 };
 
 constexpr uint16_t kUserDefined = 32767;
@@ -70,7 +63,9 @@ Crs utm(int zone, bool is_south, const Ellipsoid& ellipsoid, std::string name) {
 }
 
 // ' ("the file's own words")', or nothing.
-std::string quoted_citation(const GeoTiffTags& tags) { return tags.citation.empty() ? "" : fmt::format(" (\"{}\")", tags.citation); }
+std::string quoted_citation(const GeoTiffTags& tags) {
+    return tags.citation.empty() ? "" : fmt::format(" (\"{}\")", tags.citation);
+}
 
 // UTM spelt out instead of named: ProjectedType user-defined, Projection 160zz or 161zz, on a known geographic reference.
 std::optional<Crs> utm_from_projection(const GeoTiffTags& tags) {
@@ -86,11 +81,11 @@ std::optional<Crs> utm_from_projection(const GeoTiffTags& tags) {
 Result<Crs> projected_from_keys(const GeoTiffTags& tags, uint16_t code, const std::string& name) {
     std::optional<Crs> crs = code == kUserDefined ? utm_from_projection(tags) : crs_from_epsg(code);
     if (!crs && code == kUserDefined)
-        return bad_input("{}: a user-defined coordinate reference system{} is not known; {}; {}", name, quoted_citation(tags), kKnown,
-                         kWayOut);
+        return bad_input("{}: a user-defined coordinate reference system{} is not known; {}; {}", name, quoted_citation(tags),
+                         kKnown, kWayOut);
     if (!crs || crs->kind == CrsKind::degrees)
-        return bad_input("{}: coordinate reference system EPSG:{}{} is not known; {}; {}", name, code, quoted_citation(tags), kKnown,
-                         kWayOut);
+        return bad_input("{}: coordinate reference system EPSG:{}{} is not known; {}; {}", name, code, quoted_citation(tags),
+                         kKnown, kWayOut);
     const uint16_t unit = tags.key(kProjLinearUnits).value_or(9001);
     const std::optional<double> metres = metres_per_unit(unit);
     if (!metres) return bad_input("{}: its coordinates are in unit {}, which is not known; {}", name, unit, kWayOut);
@@ -104,7 +99,12 @@ std::optional<Crs> crs_from_epsg(uint32_t code) {
     if (code == 3857) return Crs{CrsKind::web_mercator, kWgs84.equatorial_radius_m, kWgs84.flattening, 0, false, 1, "EPSG:3857"};
     for (const Geographic& known : kGeographic)
         if (known.code == code)
-            return Crs{CrsKind::degrees, known.ellipsoid.equatorial_radius_m, known.ellipsoid.flattening, 0, false, 1,
+            return Crs{CrsKind::degrees,
+                       known.ellipsoid.equatorial_radius_m,
+                       known.ellipsoid.flattening,
+                       0,
+                       false,
+                       1,
                        fmt::format("EPSG:{}", code)};
     for (const UtmRange& range : kUtm)
         if (code >= range.first && code <= range.last)
@@ -117,11 +117,12 @@ Result<Crs> crs_from_keys(const GeoTiffTags& tags, const std::string& name) {
     const auto geographic = tags.key(kGeographicType);
     if (!geographic) return bad_input("{}: has no coordinate reference system; {}", name, kWayOut);
     const uint16_t model = tags.key(kGtModelType).value_or(2);
-    if (model != 2) return bad_input("{}: its coordinates are no longitudes and latitudes (GTModelType {}); {}", name, model, kWayOut);
+    if (model != 2)
+        return bad_input("{}: its coordinates are no longitudes and latitudes (GTModelType {}); {}", name, model, kWayOut);
     const std::optional<Crs> crs = crs_from_epsg(*geographic);
     if (!crs || crs->kind != CrsKind::degrees)
-        return bad_input("{}: coordinate reference system EPSG:{}{} is not known; {}; {}", name, *geographic, quoted_citation(tags), kKnown,
-                         kWayOut);
+        return bad_input("{}: coordinate reference system EPSG:{}{} is not known; {}; {}", name, *geographic,
+                         quoted_citation(tags), kKnown, kWayOut);
     const uint16_t unit = tags.key(kGeogAngularUnits).value_or(9102);
     if (unit != 9102) return bad_input("{}: its angles are in unit {}, not in degrees (9102); {}", name, unit, kWayOut);
     return *crs;
@@ -129,10 +130,14 @@ Result<Crs> crs_from_keys(const GeoTiffTags& tags, const std::string& name) {
 
 std::optional<double> metres_per_unit(uint32_t code) {
     switch (code) {
-        case 9001: return 1.0;
-        case 9002: return 0.3048;
-        case 9003: return 1200.0 / 3937.0;
-        default: return std::nullopt;
+        case 9001:
+            return 1.0;
+        case 9002:
+            return 0.3048;
+        case 9003:
+            return 1200.0 / 3937.0;
+        default:
+            return std::nullopt;
     }
 }
 
@@ -140,7 +145,8 @@ Result<double> height_scale_from_keys(const GeoTiffTags& tags, const std::string
     constexpr uint16_t kNgvd29Foot = 5702, kNavd88SurveyFoot = 6360, kNavd88Foot = 8228;
     if (const auto unit = tags.key(kVerticalUnits)) {
         if (const auto metres = metres_per_unit(*unit)) return *metres;
-        return bad_input("{}: heights are in unit {}, which is not known; give metres per unit with --height-scale-m", name, *unit);
+        return bad_input("{}: heights are in unit {}, which is not known; give metres per unit with --height-scale-m", name,
+                         *unit);
     }
     const uint16_t type = tags.key(kVerticalType).value_or(0);
     if (type == kNgvd29Foot || type == kNavd88SurveyFoot) return *metres_per_unit(9003);

@@ -21,7 +21,8 @@ constexpr double kMostHeight_m = 1e6;
 
 Result<void> check_options(const Options& options) {
     const auto is_positive = [](const std::optional<double>& value) { return !value || (std::isfinite(*value) && *value > 0); };
-    if (!is_positive(options.cell_size_m)) return bad_command("--cell-size-m is {}; a cell's size is above 0", *options.cell_size_m);
+    if (!is_positive(options.cell_size_m))
+        return bad_command("--cell-size-m is {}; a cell's size is above 0", *options.cell_size_m);
     if (options.height_scale_m && (!std::isfinite(*options.height_scale_m) || *options.height_scale_m == 0))
         return bad_command("--height-scale-m is {}; a scale is finite and not 0", *options.height_scale_m);
     return {};
@@ -46,7 +47,8 @@ void mark_voids(std::vector<float>& samples, bool are_integers, double nodata) {
 // No height is absurd. Infinities are: a value that means "no data" has to be said.
 Result<void> check_heights(const Raster& raster, const std::string& name) {
     const auto is_absurd = [&](float sample) {
-        return !std::isnan(sample) && !(std::abs(raster.height_offset_m + raster.height_scale_m * double(sample)) <= kMostHeight_m);
+        return !std::isnan(sample) &&
+               !(std::abs(raster.height_offset_m + raster.height_scale_m * double(sample)) <= kMostHeight_m);
     };
     const auto at = std::find_if(raster.samples.begin(), raster.samples.end(), is_absurd);
     if (at == raster.samples.end()) return {};
@@ -55,7 +57,9 @@ Result<void> check_heights(const Raster& raster, const std::string& name) {
                      index % raster.width, index / raster.width, *at, *at);
 }
 
-std::string bare_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+std::string bare_name(const std::string& path) {
+    return path.substr(path.find_last_of('/') + 1);
+}
 
 Result<Raster> finished(Stored stored, const InputFile& file, const Options& options) {
     Raster raster;
@@ -71,7 +75,8 @@ Result<Raster> finished(Stored stored, const InputFile& file, const Options& opt
 
     const std::optional<double> nodata = options.nodata ? options.nodata : stored.nodata;
     if (nodata) mark_voids(raster.samples, raster.samples_are_integers, *nodata);
-    raster.void_count = uint64_t(std::count_if(raster.samples.begin(), raster.samples.end(), [](float s) { return std::isnan(s); }));
+    raster.void_count =
+        uint64_t(std::count_if(raster.samples.begin(), raster.samples.end(), [](float s) { return std::isnan(s); }));
     if (raster.void_count == raster.samples.size())
         return bad_input("{}: all of its {} x {} samples are void", file.path, raster.width, raster.height);
     if (auto checked = check_heights(raster, file.path); !checked) return tl::unexpected(checked.error());
@@ -83,10 +88,11 @@ Result<Raster> finished(Stored stored, const InputFile& file, const Options& opt
 Result<Window> window_of(const Options& options, uint32_t width, uint32_t height, const std::string& name) {
     const Window window = options.window.value_or(Window{0, 0, width, height});
     if (window.x > width || window.width > width - window.x || window.y > height || window.height > height - window.y)
-        return bad_input("{}: the window {},{} {}x{} reaches beyond the raster, which has {} x {} samples", name, window.x, window.y,
-                         window.width, window.height, width, height);
+        return bad_input("{}: the window {},{} {}x{} reaches beyond the raster, which has {} x {} samples", name, window.x,
+                         window.y, window.width, window.height, width, height);
     if (window.width < 2 || window.height < 2)
-        return bad_input("{}: {} x {} samples are too few; an elevation model has 2 x 2 at least", name, window.width, window.height);
+        return bad_input("{}: {} x {} samples are too few; an elevation model has 2 x 2 at least", name, window.width,
+                         window.height);
     if (uint64_t(window.width) * window.height > kMostSamples)
         return impossible("{}: {} x {} samples are more than the {} that fit; bake it in parts with --window", name, window.width,
                           window.height, kMostSamples);

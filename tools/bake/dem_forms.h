@@ -1,5 +1,5 @@
-// The forms of elevation models, each read by a source file of its own (dem_geotiff.cpp, dem_hgt.cpp, dem_png.cpp) and finished by
-// dem.cpp, which knows what they share: voids, absurd heights, names.
+// The forms of elevation models, each read by a source file of its own (dem_geotiff.cpp, dem_hgt.cpp, dem_png.cpp) and finished
+// by dem.cpp, which knows what they share: voids, absurd heights, names.
 #pragma once
 
 #include <cstddef>

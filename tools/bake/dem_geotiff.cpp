@@ -19,17 +19,21 @@ Result<void> check_form(const GeoTiffTags& tags, const std::string& name) {
     if (tags.photometric > 1)
         return bad_input("{}: its samples are colours (PhotometricInterpretation {}), not heights", name, tags.photometric);
     if (tags.photometric == 0)
-        return bad_input("{}: stores white as zero (PhotometricInterpretation 0), so high and low could be exchanged; write it with "
-                         "gdal_translate -co PHOTOMETRIC=MINISBLACK",
-                         name);
+        return bad_input(
+            "{}: stores white as zero (PhotometricInterpretation 0), so high and low could be exchanged; write it with "
+            "gdal_translate -co PHOTOMETRIC=MINISBLACK",
+            name);
     if (tags.orientation != 1)
-        return bad_input("{}: its rows do not run from the top left (Orientation {}); write it with gdal_translate, which leaves that out", name, tags.orientation);
+        return bad_input(
+            "{}: its rows do not run from the top left (Orientation {}); write it with gdal_translate, which leaves that out",
+            name, tags.orientation);
     const bool is_real = tags.sample_format == SampleFormat::real;
     const bool is_read = is_real ? tags.bits_per_sample == 32 : tags.bits_per_sample == 8 || tags.bits_per_sample == 16;
     if (!is_read)
-        return bad_input("{}: its samples are {}-bit {}s; read are 8- and 16-bit integers and 32-bit floats, convert it with "
-                         "gdal_translate -ot Float32",
-                         name, tags.bits_per_sample, is_real ? "float" : "integer");
+        return bad_input(
+            "{}: its samples are {}-bit {}s; read are 8- and 16-bit integers and 32-bit floats, convert it with "
+            "gdal_translate -ot Float32",
+            name, tags.bits_per_sample, is_real ? "float" : "integer");
     return {};
 }
 
@@ -43,8 +47,10 @@ Result<std::optional<double>> nodata_from_tags(const GeoTiffTags& tags, const Op
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (text.empty() || problem != std::errc() || end != text.data() + text.size()) {
         std::string shown(text.substr(0, 40));
-        std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-        return bad_input("{}: its \"no data\" value (GDAL_NODATA) is \"{}\", which is not a number; give it with --nodata", name, shown);
+        std::replace_if(
+            shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+        return bad_input("{}: its \"no data\" value (GDAL_NODATA) is \"{}\", which is not a number; give it with --nodata", name,
+                         shown);
     }
     return std::optional<double>(value);
 }
@@ -99,13 +105,16 @@ Result<Stored> read_geotiff(const InputFile& file, const Options& options) {
     Result<std::optional<double>> nodata = nodata_from_tags(*tags, options, file.path);
     if (!nodata) return tl::unexpected(nodata.error());
     stored.nodata = *nodata;
-    Result<double> height_scale_m = options.height_scale_m ? Result<double>(*options.height_scale_m) : height_scale_from_keys(*tags, file.path);
+    Result<double> height_scale_m =
+        options.height_scale_m ? Result<double>(*options.height_scale_m) : height_scale_from_keys(*tags, file.path);
     if (!height_scale_m) return tl::unexpected(height_scale_m.error());
-    Result<ValueScale> values = options.height_scale_m ? Result<ValueScale>(ValueScale{}) : value_scale_of(tags->gdal_metadata, file.path);
+    Result<ValueScale> values =
+        options.height_scale_m ? Result<ValueScale>(ValueScale{}) : value_scale_of(tags->gdal_metadata, file.path);
     if (!values) return tl::unexpected(values.error());
     stored.height_scale_m = *height_scale_m * values->scale;
     stored.height_offset_m = *height_scale_m * values->offset;
-    Result<Place> place = options.cell_size_m ? Result<Place>(Place{plain_frame(*options.cell_size_m), {}}) : place_of(*tags, *window, file.path);
+    Result<Place> place =
+        options.cell_size_m ? Result<Place>(Place{plain_frame(*options.cell_size_m), {}}) : place_of(*tags, *window, file.path);
     if (!place) return tl::unexpected(place.error());
     stored.frame = std::move(place->frame);
 

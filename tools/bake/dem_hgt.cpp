@@ -33,7 +33,8 @@ std::optional<Corner> corner_from_name(const std::string& path) {
         }
         return value;
     };
-    if (name.size() < 8 || name[7] != '.' || (name[0] != 'n' && name[0] != 's') || (name[3] != 'e' && name[3] != 'w')) return std::nullopt;
+    if (name.size() < 8 || name[7] != '.' || (name[0] != 'n' && name[0] != 's') || (name[3] != 'e' && name[3] != 'w'))
+        return std::nullopt;
     const int latitude = digits(1, 2), longitude = digits(4, 3);
     if (latitude < 0 || latitude > 90 || longitude < 0 || longitude > 180) return std::nullopt;
     const Corner corner{name[0] == 'n' ? latitude : -latitude, name[3] == 'e' ? longitude : -longitude};
@@ -53,18 +54,22 @@ int16_t sample_at(std::span<const std::byte> bytes, uint64_t index) {
 
 }  // namespace
 
-bool is_hgt(const std::string& path) { return path.size() > 4 && lower_case(path.substr(path.size() - 4)) == ".hgt"; }
+bool is_hgt(const std::string& path) {
+    return path.size() > 4 && lower_case(path.substr(path.size() - 4)) == ".hgt";
+}
 
 Result<Stored> read_hgt(const InputFile& file, const Options& options) {
     const uint64_t side = side_of(file.bytes.size());
     if (side == 0 || side > 0x7fffffff)
-        return bad_input("{}: is {} bytes long, which is no square of 16-bit samples (1201 x 1201 have 2884802); was the copy cut short?",
-                         file.path, file.bytes.size());
+        return bad_input(
+            "{}: is {} bytes long, which is no square of 16-bit samples (1201 x 1201 have 2884802); was the copy cut short?",
+            file.path, file.bytes.size());
     const std::optional<Corner> corner = corner_from_name(file.path);
     if (!corner && !options.cell_size_m)
-        return bad_input("{}: its name is not that of an SRTM tile (N44W072.hgt), so where it lies is not known; rename it, or give the "
-                         "size of its cells with --cell-size-m",
-                         file.path);
+        return bad_input(
+            "{}: its name is not that of an SRTM tile (N44W072.hgt), so where it lies is not known; rename it, or give the "
+            "size of its cells with --cell-size-m",
+            file.path);
     Result<Window> window = window_of(options, uint32_t(side), uint32_t(side), file.path);
     if (!window) return tl::unexpected(window.error());
 
@@ -77,8 +82,12 @@ Result<Stored> read_hgt(const InputFile& file, const Options& options) {
         stored.frame = plain_frame(*options.cell_size_m);
     } else {
         const double step_deg = 1.0 / double(side - 1);
-        const GridPlacement grid{corner->longitude_deg + window->x * step_deg, corner->latitude_deg + 1 - window->y * step_deg, step_deg, 0,
-                                 0, -step_deg};
+        const GridPlacement grid{corner->longitude_deg + window->x * step_deg,
+                                 corner->latitude_deg + 1 - window->y * step_deg,
+                                 step_deg,
+                                 0,
+                                 0,
+                                 -step_deg};
         Result<terrain::Frame> frame = frame_of(*crs_from_epsg(4326), grid, window->width, window->height, file.path);
         if (!frame) return tl::unexpected(frame.error());
         stored.frame = *frame;

@@ -1,4 +1,5 @@
-// Grey PNG as an elevation model: heights without a reference. Source: W3C, "Portable Network Graphics (PNG) Specification", 2003.
+// Grey PNG as an elevation model: heights without a reference. Source: W3C, "Portable Network Graphics (PNG) Specification",
+// 2003.
 
 #include <cstdint>
 

@@ -14,7 +14,9 @@ bool parse_all(const std::string& text, Number& number) {
 }
 
 // Shortest text that reads back as the same number.
-std::string words_of(double number) { return fmt::format("{}", number); }
+std::string words_of(double number) {
+    return fmt::format("{}", number);
+}
 
 }  // namespace
 
@@ -32,7 +34,9 @@ Result<Window> parse_window(const std::string& text) {
 
 std::vector<std::pair<std::string, std::string>> options_in_words(const Options& options, const terrain::BakeOptions& bake) {
     std::vector<std::pair<std::string, std::string>> words;
-    if (options.window) words.emplace_back("window", fmt::format("{},{},{},{}", options.window->x, options.window->y, options.window->width, options.window->height));
+    if (options.window)
+        words.emplace_back("window", fmt::format("{},{},{},{}", options.window->x, options.window->y, options.window->width,
+                                                 options.window->height));
     if (options.cell_size_m) words.emplace_back("cell-size-m", words_of(*options.cell_size_m));
     if (options.height_scale_m) words.emplace_back("height-scale-m", words_of(*options.height_scale_m));
     if (options.nodata) words.emplace_back("nodata", words_of(*options.nodata));

@@ -59,7 +59,9 @@ std::vector<double> landmarks(double low, double high) {
     return marks;
 }
 
-size_t borders_between(double low, double high, double ratio) { return std::max<size_t>(1, size_t(std::ceil(std::log(high / low) / std::log(ratio)))); }
+size_t borders_between(double low, double high, double ratio) {
+    return std::max<size_t>(1, size_t(std::ceil(std::log(high / low) / std::log(ratio))));
+}
 
 // Upper borders of at most kCodes bins that cover [low, high], increasing.
 std::vector<float> borders(Range range) {
@@ -76,7 +78,8 @@ std::vector<float> borders(Range range) {
     std::vector<float> upper{range.low};
     for (size_t i = 1; i < marks.size(); ++i) {
         size_t count = borders_between(marks[i - 1], marks[i], ratio);
-        for (size_t k = 1; k < count; ++k) upper.push_back(float(marks[i - 1] * std::pow(marks[i] / marks[i - 1], double(k) / double(count))));
+        for (size_t k = 1; k < count; ++k)
+            upper.push_back(float(marks[i - 1] * std::pow(marks[i] / marks[i - 1], double(k) / double(count))));
         upper.push_back(float(marks[i]));
     }
     upper.back() = range.high;

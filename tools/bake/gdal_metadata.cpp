@@ -8,7 +8,9 @@
 namespace overlook::dem {
 namespace {
 
-bool has(std::string_view text, std::string_view what) { return text.find(what) != std::string_view::npos; }
+bool has(std::string_view text, std::string_view what) {
+    return text.find(what) != std::string_view::npos;
+}
 
 // The text of the first item of the first channel with a role; none if there is none.
 std::optional<std::string_view> item_text(std::string_view xml, std::string_view role) {
@@ -29,7 +31,8 @@ bool read_item(std::string_view xml, std::string_view role, double& value, std::
     std::optional<std::string_view> text = item_text(xml, role);
     if (!text) return true;
     shown.assign(text->substr(0, 40));
-    std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     auto [end, problem] = std::from_chars(text->data(), text->data() + text->size(), value);
     return problem == std::errc() && end == text->data() + text->size() && std::isfinite(value);
 }

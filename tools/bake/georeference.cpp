@@ -39,7 +39,9 @@ struct Projection {
     GeographicLib::TransverseMercator transverse_mercator;
 
     explicit Projection(const Crs& of)
-        : crs(of), ellipsoid(of.equatorial_radius_m, of.flattening), transverse_mercator(of.equatorial_radius_m, of.flattening, kUtmScale) {}
+        : crs(of),
+          ellipsoid(of.equatorial_radius_m, of.flattening),
+          transverse_mercator(of.equatorial_radius_m, of.flattening, kUtmScale) {}
 };
 
 LocalScale scale_in_degrees(const Projection& projection, double x, double y) {
@@ -53,8 +55,8 @@ LocalScale scale_in_utm(const Projection& projection, double x, double y) {
     const double easting_m = x * crs.metres_per_unit - kFalseEasting_m;
     const double northing_m = y * crs.metres_per_unit - (crs.is_south ? kFalseNorthing_m : 0);
     double latitude_deg = 0, longitude_deg = 0, convergence_deg = 0, scale = 1;
-    projection.transverse_mercator.Reverse(6.0 * crs.zone - 183, easting_m, northing_m, latitude_deg, longitude_deg, convergence_deg,
-                                           scale);
+    projection.transverse_mercator.Reverse(6.0 * crs.zone - 183, easting_m, northing_m, latitude_deg, longitude_deg,
+                                           convergence_deg, scale);
     return {crs.metres_per_unit / scale, crs.metres_per_unit / scale, latitude_deg, longitude_deg, convergence_deg};
 }
 
@@ -69,9 +71,12 @@ LocalScale scale_in_web_mercator(const Projection& projection, double x, double 
 
 LocalScale scale_at(const Projection& projection, double x, double y) {
     switch (projection.crs.kind) {
-        case CrsKind::degrees: return scale_in_degrees(projection, x, y);
-        case CrsKind::utm: return scale_in_utm(projection, x, y);
-        case CrsKind::web_mercator: return scale_in_web_mercator(projection, x, y);
+        case CrsKind::degrees:
+            return scale_in_degrees(projection, x, y);
+        case CrsKind::utm:
+            return scale_in_utm(projection, x, y);
+        case CrsKind::web_mercator:
+            return scale_in_web_mercator(projection, x, y);
     }
     return {};
 }
@@ -94,10 +99,13 @@ Result<void> check_reach(const Crs& crs, const GridPlacement& grid, uint32_t wid
                 return bad_input("{}: reaches longitude {:.6g}; is its reference ({}) right?", name, p.x, crs.name);
             const double easting_m = p.x * crs.metres_per_unit - kFalseEasting_m, northing_m = p.y * crs.metres_per_unit;
             if (crs.kind == CrsKind::utm && !(std::abs(easting_m) <= kUtmReach_m && std::abs(northing_m) <= 2 * kFalseNorthing_m))
-                return bad_input("{}: reaches easting {:.6g}, northing {:.6g}; is its reference ({}) right?", name, p.x, p.y, crs.name);
+                return bad_input("{}: reaches easting {:.6g}, northing {:.6g}; is its reference ({}) right?", name, p.x, p.y,
+                                 crs.name);
             const double world_m = 1.01 * std::numbers::pi * crs.equatorial_radius_m;
-            if (crs.kind == CrsKind::web_mercator && !(std::max(std::abs(p.x), std::abs(p.y)) * crs.metres_per_unit <= 4 * world_m))
-                return bad_input("{}: reaches easting {:.6g}, northing {:.6g}; is its reference ({}) right?", name, p.x, p.y, crs.name);
+            if (crs.kind == CrsKind::web_mercator &&
+                !(std::max(std::abs(p.x), std::abs(p.y)) * crs.metres_per_unit <= 4 * world_m))
+                return bad_input("{}: reaches easting {:.6g}, northing {:.6g}; is its reference ({}) right?", name, p.x, p.y,
+                                 crs.name);
         }
     return {};
 }
@@ -111,8 +119,8 @@ Result<void> check_shape(const Crs& crs, const GridPlacement& grid, const std::s
                          std::acos(std::clamp(cosine, -1.0, 1.0)) / kRadiansPerDegree);
     const double turn_deg = std::atan2(grid.column_y, grid.column_x) / kRadiansPerDegree;
     if (crs.kind != CrsKind::utm && std::abs(grid.column_y) > 1e-6 * column)
-        return bad_input("{}: its grid is turned by {:.4g} degrees, which {} cannot have with square corners; warp it", name, turn_deg,
-                         crs.name);
+        return bad_input("{}: its grid is turned by {:.4g} degrees, which {} cannot have with square corners; warp it", name,
+                         turn_deg, crs.name);
     return {};
 }
 
@@ -168,7 +176,8 @@ double wrapped_deg(double angle_deg) {
 
 }  // namespace
 
-Result<terrain::Frame> frame_of(const Crs& crs, const GridPlacement& grid, uint32_t width, uint32_t height, const std::string& name) {
+Result<terrain::Frame> frame_of(const Crs& crs, const GridPlacement& grid, uint32_t width, uint32_t height,
+                                const std::string& name) {
     if (auto r = check_shape(crs, grid, name); !r) return tl::unexpected(r.error());
     if (auto r = check_reach(crs, grid, width, height, name); !r) return tl::unexpected(r.error());
     try {
@@ -179,8 +188,8 @@ Result<terrain::Frame> frame_of(const Crs& crs, const GridPlacement& grid, uint3
             return bad_input("{}: its middle is at a pole, where a cell has no width; use a projected one", name);
         const CellSize size = cell_size(scale, grid);
         if (!std::isfinite(size.column_m) || !std::isfinite(size.row_m) || !(size.column_m > 0) || !(size.row_m > 0))
-            return bad_input("{}: its cells measure {:.6g} x {:.6g} m; is its reference ({}) right?", name, size.column_m, size.row_m,
-                             crs.name);
+            return bad_input("{}: its cells measure {:.6g} x {:.6g} m; is its reference ({}) right?", name, size.column_m,
+                             size.row_m, crs.name);
 
         terrain::Frame frame;
         frame.metres_per_column = size.column_m;

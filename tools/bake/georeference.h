@@ -38,6 +38,7 @@ GridPlacement mirrored(const GridPlacement& grid, const Mirroring& mirroring, ui
 //   "NAME: its grid is sheared: columns and rows meet at 84.3 degrees; warp it to a right-angled one"
 //   "NAME: its grid is turned by 12 degrees, which EPSG:4326 cannot have with square corners; warp it"
 //   "NAME: reaches latitude 95.2; is its reference right?"
-Result<terrain::Frame> frame_of(const Crs& crs, const GridPlacement& grid, uint32_t width, uint32_t height, const std::string& name);
+Result<terrain::Frame> frame_of(const Crs& crs, const GridPlacement& grid, uint32_t width, uint32_t height,
+                                const std::string& name);
 
 }  // namespace overlook::dem

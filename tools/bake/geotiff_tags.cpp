@@ -11,10 +11,11 @@ namespace overlook::dem {
 namespace {
 
 constexpr uint16_t kImageWidth = 256, kImageLength = 257, kBitsPerSample = 258, kCompression = 259, kPhotometric = 262,
-                   kStripOffsets = 273, kSamplesPerPixel = 277, kRowsPerStrip = 278, kStripByteCounts = 279, kPlanarConfiguration = 284,
-                   kTileWidth = 322, kTileLength = 323, kTileOffsets = 324, kTileByteCounts = 325, kSampleFormat = 339,
-                   kModelPixelScale = 33550, kModelTiepoint = 33922, kModelTransformation = 34264, kGeoKeyDirectory = 34735,
-                   kGeoDoubleParams = 34736, kGeoAsciiParams = 34737, kOrientation = 274, kGdalMetadata = 42112, kGdalNodata = 42113;
+                   kStripOffsets = 273, kSamplesPerPixel = 277, kRowsPerStrip = 278, kStripByteCounts = 279,
+                   kPlanarConfiguration = 284, kTileWidth = 322, kTileLength = 323, kTileOffsets = 324, kTileByteCounts = 325,
+                   kSampleFormat = 339, kModelPixelScale = 33550, kModelTiepoint = 33922, kModelTransformation = 34264,
+                   kGeoKeyDirectory = 34735, kGeoDoubleParams = 34736, kGeoAsciiParams = 34737, kOrientation = 274,
+                   kGdalMetadata = 42112, kGdalNodata = 42113;
 
 // No compression that OpenImageIO decodes makes samples this many times smaller; a file that claims more is damaged, and would
 // only make us allocate what it does not hold. (zstd's runs: 128 KiB in 4 bytes.)
@@ -68,12 +69,14 @@ struct Pieces {
 Result<Pieces> read_pieces(const TiffDirectory& directory, const GeoTiffTags& tags) {
     Pieces pieces;
     uint32_t tile_width = 0;
-    if (auto r = read_integer(directory, kTileWidth, "TileWidth", 0, 0, 1u << 20, tile_width); !r) return tl::unexpected(r.error());
+    if (auto r = read_integer(directory, kTileWidth, "TileWidth", 0, 0, 1u << 20, tile_width); !r)
+        return tl::unexpected(r.error());
     const bool is_tiled = tile_width != 0;
     pieces.what = is_tiled ? "tile" : "strip";
     pieces.width = is_tiled ? tile_width : tags.width;
-    const auto height = is_tiled ? read_integer(directory, kTileLength, "TileLength", 0, 1, 1u << 20, pieces.height)
-                                 : read_integer(directory, kRowsPerStrip, "RowsPerStrip", tags.height, 1, 0xffffffff, pieces.height);
+    const auto height = is_tiled
+                            ? read_integer(directory, kTileLength, "TileLength", 0, 1, 1u << 20, pieces.height)
+                            : read_integer(directory, kRowsPerStrip, "RowsPerStrip", tags.height, 1, 0xffffffff, pieces.height);
     if (!height) return tl::unexpected(height.error());
     if (!is_tiled) pieces.height = std::min(pieces.height, tags.height);
 
@@ -102,8 +105,8 @@ Result<void> check_pieces(const TiffDirectory& directory, const GeoTiffTags& tag
     const bool is_countable = across * down <= directory.bytes.size();  // each takes a byte at least; sides are below 2^31
     const uint64_t expected = is_countable ? across * down * planes : across * down;
     if (!is_countable || pieces->offsets.size() != expected || pieces->byte_counts.size() != expected)
-        return bad_input("{}: a raster of {} x {} in {}s of {} x {} needs {} of them, the file lists {}", directory.name, tags.width,
-                         tags.height, pieces->what, pieces->width, pieces->height, expected,
+        return bad_input("{}: a raster of {} x {} in {}s of {} x {} needs {} of them, the file lists {}", directory.name,
+                         tags.width, tags.height, pieces->what, pieces->width, pieces->height, expected,
                          std::min(pieces->offsets.size(), pieces->byte_counts.size()));
 
     const uint64_t total = directory.bytes.size();
@@ -114,14 +117,15 @@ Result<void> check_pieces(const TiffDirectory& directory, const GeoTiffTags& tag
             return bad_input("{}: TIFF {} {} is empty (a sparse file); write it whole, with gdal_translate -co SPARSE_OK=FALSE",
                              directory.name, pieces->what, i);
         if (size > total || offset > total - size)
-            return bad_input("{}: TIFF {} {} (from byte {}, {} bytes) ends after the file, which is {} bytes long; was the copy cut short?",
-                             directory.name, pieces->what, i, offset, size, total);
+            return bad_input(
+                "{}: TIFF {} {} (from byte {}, {} bytes) ends after the file, which is {} bytes long; was the copy cut short?",
+                directory.name, pieces->what, i, offset, size, total);
         const bool is_last_strip = tags.width == pieces->width && i % down == down - 1 && pieces->what[0] == 's';
         const double rows = is_last_strip ? double(tags.height - (down - 1) * pieces->height) : double(pieces->height);
         const double needed = std::floor(bytes_per_pixel * pieces->width * rows);
         if (double(size) < (compression == 1 ? needed : needed / kGreatestCompression))
-            return bad_input("{}: TIFF {} {} has {} bytes, too few for its {} x {} samples", directory.name, pieces->what, i, size,
-                             pieces->width, rows);
+            return bad_input("{}: TIFF {} {} has {} bytes, too few for its {} x {} samples", directory.name, pieces->what, i,
+                             size, pieces->width, rows);
     }
     return {};
 }
@@ -194,7 +198,8 @@ Result<GeoTiffTags> read_geotiff_tags(std::span<const std::byte> bytes, const st
     const auto none_or_16 = [](size_t n) { return n == 0 || n == 16; };
     if (auto r = read_doubles(*directory, kModelPixelScale, "ModelPixelScale", none_or_3, tags.pixel_scale); !r)
         return tl::unexpected(r.error());
-    if (auto r = read_doubles(*directory, kModelTiepoint, "ModelTiepoint", sixes, tags.tie_points); !r) return tl::unexpected(r.error());
+    if (auto r = read_doubles(*directory, kModelTiepoint, "ModelTiepoint", sixes, tags.tie_points); !r)
+        return tl::unexpected(r.error());
     if (auto r = read_doubles(*directory, kModelTransformation, "ModelTransformation", none_or_16, tags.transformation); !r)
         return tl::unexpected(r.error());
     if (auto r = read_keys(*directory, tags); !r) return tl::unexpected(r.error());

@@ -30,15 +30,15 @@ struct GeoTiffTags {
     uint32_t bits_per_sample = 1;
     SampleFormat sample_format = SampleFormat::unsigned_integer;
     uint32_t samples_per_pixel = 1;
-    uint32_t photometric = 1;         // 0: white is zero, 1: black is zero
-    std::vector<double> pixel_scale;    // 33550: none or 3
-    std::vector<double> tie_points;     // 33922: 6 each (column, row, level, x, y, z)
-    std::vector<double> transformation; // 34264: none or 16, row-major
-    std::vector<GeoKey> keys;           // in rising order of id
-    std::string citation;               // the reference in the file's own words, printable ASCII, or empty
-    uint32_t orientation = 1;         // 274: 1 = first row at the top, first column at the left
-    std::string gdal_metadata;          // 42112, XML, or empty
-    std::optional<std::string> nodata;  // 42113, as text
+    uint32_t photometric = 1;            // 0: white is zero, 1: black is zero
+    std::vector<double> pixel_scale;     // 33550: none or 3
+    std::vector<double> tie_points;      // 33922: 6 each (column, row, level, x, y, z)
+    std::vector<double> transformation;  // 34264: none or 16, row-major
+    std::vector<GeoKey> keys;            // in rising order of id
+    std::string citation;                // the reference in the file's own words, printable ASCII, or empty
+    uint32_t orientation = 1;            // 274: 1 = first row at the top, first column at the left
+    std::string gdal_metadata;           // 42112, XML, or empty
+    std::optional<std::string> nodata;   // 42113, as text
 
     std::optional<uint16_t> key(uint16_t id) const;
 };

@@ -14,13 +14,15 @@ Result<GridPlacement> placement_of_raster_space(const GeoTiffTags& tags, const s
         return GridPlacement{m[3], m[7], m[0], m[4], m[1], m[5]};
     }
     if (tags.pixel_scale.empty() && tags.tie_points.size() > 6)
-        return bad_input("{}: is placed by {} control points, not by a grid; warp it first, or give the size of its cells with "
-                         "--cell-size-m",
-                         name, tags.tie_points.size() / 6);
+        return bad_input(
+            "{}: is placed by {} control points, not by a grid; warp it first, or give the size of its cells with "
+            "--cell-size-m",
+            name, tags.tie_points.size() / 6);
     if (tags.pixel_scale.empty() || tags.tie_points.empty())
-        return bad_input("{}: has a coordinate reference system but no grid in it (ModelPixelScale and ModelTiepoint, or "
-                         "ModelTransformation); give the size of its cells with --cell-size-m",
-                         name);
+        return bad_input(
+            "{}: has a coordinate reference system but no grid in it (ModelPixelScale and ModelTiepoint, or "
+            "ModelTransformation); give the size of its cells with --cell-size-m",
+            name);
     const double scale_x = tags.pixel_scale[0], scale_y = tags.pixel_scale[1];
     const std::vector<double>& t = tags.tie_points;
     return GridPlacement{t[3] - t[0] * scale_x, t[4] + t[1] * scale_y, scale_x, 0, 0, -scale_y};

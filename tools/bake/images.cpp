@@ -34,8 +34,8 @@ std::string gist(std::string text) {
     return line.empty() ? "it does not decode" : line;
 }
 
-// Which of the library's readers a file needs: by its first bytes, so that a wrong extension does not matter, or by its extension.
-// Asking for one reader by name keeps the others (some of which print) from trying.
+// Which of the library's readers a file needs: by its first bytes, so that a wrong extension does not matter, or by its
+// extension. Asking for one reader by name keeps the others (some of which print) from trying.
 std::string reader_of(const std::string& path, std::span<const std::byte> bytes) {
     const auto begins_with = [&](const char* text, size_t size) {
         return bytes.size() >= size && std::memcmp(bytes.data(), text, size) == 0;
@@ -85,7 +85,8 @@ Result<OpenImage> open_image(const std::string& path) {
     if (!image.input->open(path, image.spec, as_stored)) return image.failure();
     const ImageSpec& spec = image.spec;
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
-        return bad_input("{}: its size is {} x {} x {} with {} channels", path, spec.width, spec.height, spec.depth, spec.nchannels);
+        return bad_input("{}: its size is {} x {} x {} with {} channels", path, spec.width, spec.height, spec.depth,
+                         spec.nchannels);
     return image;
 }
 
@@ -115,10 +116,10 @@ Result<Band> read_band(OpenImage& image, const ImageWindow& part) {
     band.bytes_per_row = size_t(right - left) * size_t(spec.nchannels) * spec.format.size();
     band.bytes.resize(band.bytes_per_row * (bottom - top));
     const int x0 = spec.x + int(left), x1 = spec.x + int(right), y0 = spec.y + int(top), y1 = spec.y + int(bottom);
-    const bool is_read = spec.tile_width > 0
-                             ? image.input->read_tiles(0, 0, x0, x1, y0, y1, spec.z, spec.z + 1, 0, spec.nchannels, spec.format,
-                                                       band.bytes.data())
-                             : image.input->read_scanlines(0, 0, y0, y1, spec.z, 0, spec.nchannels, spec.format, band.bytes.data());
+    const bool is_read =
+        spec.tile_width > 0
+            ? image.input->read_tiles(0, 0, x0, x1, y0, y1, spec.z, spec.z + 1, 0, spec.nchannels, spec.format, band.bytes.data())
+            : image.input->read_scanlines(0, 0, y0, y1, spec.z, 0, spec.nchannels, spec.format, band.bytes.data());
     if (!is_read || image.input->has_error()) return image.failure();
     return band;
 }
@@ -157,12 +158,18 @@ void convert_row(const std::byte* from, uint32_t count, float* to) {
 using Convert = void (*)(const std::byte* from, uint32_t count, float* to);
 Convert converter_of(TypeDesc type) {
     switch (type.basetype) {
-        case TypeDesc::INT8: return convert_row<int8_t>;
-        case TypeDesc::UINT8: return convert_row<uint8_t>;
-        case TypeDesc::INT16: return convert_row<int16_t>;
-        case TypeDesc::UINT16: return convert_row<uint16_t>;
-        case TypeDesc::FLOAT: return convert_row<float>;
-        default: return nullptr;
+        case TypeDesc::INT8:
+            return convert_row<int8_t>;
+        case TypeDesc::UINT8:
+            return convert_row<uint8_t>;
+        case TypeDesc::INT16:
+            return convert_row<int16_t>;
+        case TypeDesc::UINT16:
+            return convert_row<uint16_t>;
+        case TypeDesc::FLOAT:
+            return convert_row<float>;
+        default:
+            return nullptr;
     }
 }
 
@@ -170,11 +177,11 @@ Result<ImageWindow> resolved(const OpenImage& image, const ImageWindow& window) 
     const uint32_t width = uint32_t(image.spec.width), height = uint32_t(image.spec.height);
     const ImageWindow part = window.width == 0 ? ImageWindow{0, 0, width, height} : window;
     if (part.height == 0 || part.x > width || part.width > width - part.x || part.y > height || part.height > height - part.y)
-        return bad_input("{}: the window {},{} {}x{} reaches beyond the raster, which has {} x {} samples", image.path, part.x, part.y,
-                         part.width, part.height, width, height);
+        return bad_input("{}: the window {},{} {}x{} reaches beyond the raster, which has {} x {} samples", image.path, part.x,
+                         part.y, part.width, part.height, width, height);
     if (uint64_t(part.width) * part.height > kMostSamples)
-        return impossible("{}: {} x {} samples are more than the {} that fit; read it in parts with --window", image.path, part.width,
-                          part.height, kMostSamples);
+        return impossible("{}: {} x {} samples are more than the {} that fit; read it in parts with --window", image.path,
+                          part.width, part.height, kMostSamples);
     return part;
 }
 
@@ -186,7 +193,8 @@ Result<NumberRaster> read_numbers(const std::string& path, const ImageWindow& wi
         return bad_input("{}: has {} channels, an elevation model has one; is it a picture?", path, spec.nchannels);
     const Convert convert = converter_of(spec.format);
     if (!convert || !spec.channelformats.empty())
-        return bad_input("{}: its samples are of type {}; read are 8- and 16-bit integers and 32-bit floats", path, spec.format.c_str());
+        return bad_input("{}: its samples are of type {}; read are 8- and 16-bit integers and 32-bit floats", path,
+                         spec.format.c_str());
     Result<ImageWindow> part = resolved(*image, window);
     if (!part) return tl::unexpected(part.error());
 
@@ -196,7 +204,8 @@ Result<NumberRaster> read_numbers(const std::string& path, const ImageWindow& wi
     raster.values_are_integers = spec.format != TypeDesc::FLOAT;
     raster.values.resize(size_t(part->width) * part->height);
     const auto read = for_each_row(*image, *part, [&](const Band& band, uint32_t y) {
-        const std::byte* from = band.bytes.data() + band.bytes_per_row * (y - band.first_row) + (part->x - band.first_column) * spec.format.size();
+        const std::byte* from =
+            band.bytes.data() + band.bytes_per_row * (y - band.first_row) + (part->x - band.first_column) * spec.format.size();
         convert(from, part->width, raster.values.data() + size_t(part->width) * (y - part->y));
     });
     if (!read) return tl::unexpected(read.error());
@@ -225,8 +234,8 @@ Result<ImageRgb8> read_rgb8(const std::string& path) {
     picture.pixels.resize(size_t(3) * part->width * part->height);
     std::vector<uint8_t> row(size_t(part->width) * size_t(spec.nchannels));
     const auto read = for_each_row(*image, *part, [&](const Band& band, uint32_t y) {
-        OIIO::convert_pixel_values(spec.format, band.bytes.data() + band.bytes_per_row * (y - band.first_row), TypeDesc::UINT8, row.data(),
-                                   int(row.size()));
+        OIIO::convert_pixel_values(spec.format, band.bytes.data() + band.bytes_per_row * (y - band.first_row), TypeDesc::UINT8,
+                                   row.data(), int(row.size()));
         spread_to_rgb(row.data(), part->width, spec.nchannels, picture.pixels.data() + size_t(3) * part->width * y);
     });
     if (!read) return tl::unexpected(read.error());

@@ -13,7 +13,7 @@ namespace overlook {
 struct NumberRaster {
     uint32_t width = 0;
     uint32_t height = 0;
-    std::vector<float> values;    // [height, width] row-major, top row first
+    std::vector<float> values;  // [height, width] row-major, top row first
     bool values_are_integers = false;
 };
 

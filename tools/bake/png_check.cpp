@@ -50,8 +50,8 @@ Result<void> check_png(std::span<const std::byte> bytes, const std::string& name
         const uint64_t left = bytes.size() - at;
         const uint64_t length = left >= kChunkFrameBytes ? big_endian_32(bytes, at) : 0;
         if (left < kChunkFrameBytes || length > left - kChunkFrameBytes)
-            return bad_input("{}: PNG chunk at byte {} ends after the file, which is {} bytes long; was the copy cut short?", name, at,
-                             bytes.size());
+            return bad_input("{}: PNG chunk at byte {} ends after the file, which is {} bytes long; was the copy cut short?",
+                             name, at, bytes.size());
         const uint32_t kind = big_endian_32(bytes, at + 4);
         if (at == kSignature.size() && (kind != kHeaderName || length != kHeaderBytes))
             return bad_input("{}: its first PNG chunk is no header (IHDR)", name);

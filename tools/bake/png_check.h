@@ -11,8 +11,8 @@ namespace overlook {
 
 bool is_png(std::span<const std::byte> bytes);
 
-// Every chunk lies within the file and has its checksum, the first is IHDR, and IEND is reached. Cost: one pass over the bytes, which
-// may be hostile. Fails with Exit::bad_input:
+// Every chunk lies within the file and has its checksum, the first is IHDR, and IEND is reached. Cost: one pass over the bytes,
+// which may be hostile. Fails with Exit::bad_input:
 //   "NAME: PNG chunk at byte 33 ends after the file, which is 40 bytes long; was the copy cut short?"
 //   "NAME: PNG chunk at byte 33 is damaged: its checksum does not match"
 Result<void> check_png(std::span<const std::byte> bytes, const std::string& name);

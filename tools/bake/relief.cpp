@@ -14,17 +14,13 @@ using relief::Colour;
 using relief::Field;
 
 constexpr uint8_t kVoidGrey = 128;
-constexpr double kGoodSlope =
-    0.42;  // tangent that nine tenths of the ground should stay under, after exaggeration
+constexpr double kGoodSlope = 0.42;  // tangent that nine tenths of the ground should stay under, after exaggeration
 constexpr double kMostExaggeration = 12;
 
 // Heights in metres, the mean of the valid samples of k x k.
 Field reduce(const dem::Raster& dem, uint32_t k) {
-    Field field{(dem.width + k - 1) / k,
-                (dem.height + k - 1) / k,
-                dem.frame.metres_per_column * k,
-                dem.frame.metres_per_row * k,
-                {}};
+    Field field{
+        (dem.width + k - 1) / k, (dem.height + k - 1) / k, dem.frame.metres_per_column * k, dem.frame.metres_per_row * k, {}};
     field.height_m.assign(size_t(field.width) * field.height, NAN);
     parallel_ranges(field.height, 16, [&](size_t begin, size_t end) {
         for (uint32_t row = uint32_t(begin); row < end; ++row)
@@ -62,12 +58,9 @@ Field halve(const Field& field) {
 }
 
 // Value of a half-sized grid at the middle of a cell of the whole one.
-double value_between(const std::vector<float>& half, uint32_t width, uint32_t height, uint32_t column,
-                     uint32_t row) {
-    double x = std::clamp((column - 0.5) / 2, 0.0, double(width - 1)),
-           y = std::clamp((row - 0.5) / 2, 0.0, double(height - 1));
-    uint32_t i = uint32_t(x), j = uint32_t(y), i1 = std::min(i + 1, width - 1),
-             j1 = std::min(j + 1, height - 1);
+double value_between(const std::vector<float>& half, uint32_t width, uint32_t height, uint32_t column, uint32_t row) {
+    double x = std::clamp((column - 0.5) / 2, 0.0, double(width - 1)), y = std::clamp((row - 0.5) / 2, 0.0, double(height - 1));
+    uint32_t i = uint32_t(x), j = uint32_t(y), i1 = std::min(i + 1, width - 1), j1 = std::min(j + 1, height - 1);
     double fx = x - i, fy = y - j;
     double top = half[size_t(j) * width + i] * (1 - fx) + half[size_t(j) * width + i1] * fx;
     double bottom = half[size_t(j1) * width + i] * (1 - fx) + half[size_t(j1) * width + i1] * fx;
@@ -81,8 +74,7 @@ double exaggeration_of(const Field& field, const relief::Slopes& slopes) {
     uint64_t count = 0;
     for (size_t i = 0; i < field.height_m.size(); ++i) {
         if (std::isnan(field.height_m[i])) continue;
-        double tangent =
-            std::sqrt(double(slopes.right[i]) * slopes.right[i] + double(slopes.up[i]) * slopes.up[i]);
+        double tangent = std::sqrt(double(slopes.right[i]) * slopes.right[i] + double(slopes.up[i]) * slopes.up[i]);
         ++bins[size_t(std::min(4095.0, tangent * 2048))];
         ++count;
     }
@@ -153,8 +145,7 @@ Colour light_at(const Scene& scene, uint32_t column, uint32_t row, size_t i) {
     double open = value_between(scene.half_sky, scene.half.width, scene.half.height, column, row);
     double sky = open * open * (0.55 + 0.45 / length);
     double bounce = 0.06 * (1 - open);
-    return {1.62 * sun + 0.30 * sky + bounce, 1.46 * sun + 0.38 * sky + bounce,
-            1.18 * sun + 0.52 * sky + 0.8 * bounce};
+    return {1.62 * sun + 0.30 * sky + bounce, 1.46 * sun + 0.38 * sky + bounce, 1.18 * sun + 0.52 * sky + 0.8 * bounce};
 }
 
 // Keeps bright snow from clipping: straight below 0.6, bending towards 1 above.
@@ -175,10 +166,8 @@ ImageRgb8 shade_relief(const dem::Raster& dem, const ReliefOptions& options) {
             for (uint32_t column = 0; column < image.width; ++column) {
                 size_t i = size_t(row) * image.width + column;
                 if (std::isnan(scene.field.height_m[i])) continue;
-                Colour colour = relief::ground_colour(ground_at(scene, i)),
-                       light = light_at(scene, column, row, i);
-                for (size_t c = 0; c < 3; ++c)
-                    image.pixels[3 * i + c] = relief::srgb_from_linear(soften(colour[c] * light[c]));
+                Colour colour = relief::ground_colour(ground_at(scene, i)), light = light_at(scene, column, row, i);
+                for (size_t c = 0; c < 3; ++c) image.pixels[3 * i + c] = relief::srgb_from_linear(soften(colour[c] * light[c]));
             }
     });
     return image;

@@ -85,8 +85,7 @@ Colour ground_colour(const Ground& g) {
     double mountains = ramp(250, 1400, g.relief_m);
     double h = g.height - 0.05 * g.hollow - 0.05 * g.valley;
     Colour colour = blend(plain, meadow, ramp(0.02, 0.16, h));
-    double wooded =
-        ramp(0.08, 0.20, h) * (1 - ramp(0.42, 0.56, h)) * ramp(0.10, 0.32, g.slope + 0.12 * g.hollow);
+    double wooded = ramp(0.08, 0.20, h) * (1 - ramp(0.42, 0.56, h)) * ramp(0.10, 0.32, g.slope + 0.12 * g.hollow);
     colour = blend(colour, alp, ramp(0.34, 0.58, h));
     colour = blend(colour, forest, 0.9 * wooded);
     colour = blend(colour, scree, ramp(0.55, 0.78, h));

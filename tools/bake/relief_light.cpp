@@ -32,8 +32,7 @@ struct Sweep {
 
 Sweep sweep_of(const Field& field, double azimuth_deg) {
     // Towards the sun, in cells: x to the right, y down the raster.
-    double x = std::sin(azimuth_deg * kRadians) / field.column_m,
-           y = -std::cos(azimuth_deg * kRadians) / field.row_m;
+    double x = std::sin(azimuth_deg * kRadians) / field.column_m, y = -std::cos(azimuth_deg * kRadians) / field.row_m;
     Sweep sweep;
     sweep.is_by_rows = std::abs(y) >= std::abs(x);
     double major = sweep.is_by_rows ? y : x, minor = sweep.is_by_rows ? x : y;
@@ -75,8 +74,7 @@ float sky_of_cell(const Field& field, double exaggeration, int64_t column, int64
     for (const auto& direction : kDirections) {
         double steepest = 0;
         for (int reach : kReach) {
-            int64_t dx = int64_t(std::lround(direction[0] * reach)),
-                    dy = int64_t(std::lround(direction[1] * reach));
+            int64_t dx = int64_t(std::lround(direction[0] * reach)), dy = int64_t(std::lround(direction[1] * reach));
             int64_t x = column + dx, y = row + dy;
             if (x < 0 || y < 0 || x >= field.width || y >= field.height) break;
             double rise = double(field.at(uint32_t(x), uint32_t(y))) - here;
@@ -119,15 +117,13 @@ Slopes slopes_of(const Field& field) {
 std::vector<float> sun_visibility(const Field& field, double azimuth_deg, double altitude_deg) {
     Sweep sweep = sweep_of(field, azimuth_deg);
     double fall_m = sweep.distance_m * std::tan(altitude_deg * kRadians);
-    uint32_t lines = sweep.is_by_rows ? field.height : field.width,
-             length = sweep.is_by_rows ? field.width : field.height;
+    uint32_t lines = sweep.is_by_rows ? field.height : field.width, length = sweep.is_by_rows ? field.width : field.height;
     std::vector<float> visibility(field.height_m.size(), 1.0f);
     std::vector<double> before(length, kNoShadowM), line(length);
     for (uint32_t n = 0; n < lines; ++n) {
         uint32_t major = sweep.step > 0 ? n : lines - 1 - n;
         for (uint32_t minor = 0; minor < length; ++minor) {
-            size_t i =
-                sweep.is_by_rows ? size_t(major) * field.width + minor : size_t(minor) * field.width + major;
+            size_t i = sweep.is_by_rows ? size_t(major) * field.width + minor : size_t(minor) * field.width + major;
             double here_m = field.height_m[i];
             double shadow_m = shadow_at(before, minor + sweep.minor_shift) - fall_m;
             bool is_void = std::isnan(here_m);
@@ -145,8 +141,7 @@ std::vector<float> sky_visibility(const Field& field, double exaggeration) {
         for (uint32_t row = uint32_t(begin); row < end; ++row)
             for (uint32_t column = 0; column < field.width; ++column)
                 if (!std::isnan(field.at(column, row)))
-                    visibility[size_t(row) * field.width + column] =
-                        sky_of_cell(field, exaggeration, column, row);
+                    visibility[size_t(row) * field.width + column] = sky_of_cell(field, exaggeration, column, row);
     });
     return visibility;
 }

@@ -15,7 +15,9 @@ namespace {
 constexpr double kFinestStep_m = 1.0 / 1024;
 constexpr size_t kSamplesAtATime = 1 << 16;
 
-double source_height_m(const dem::Raster& dem, size_t i) { return dem.height_offset_m + dem.height_scale_m * double(dem.samples[i]); }
+double source_height_m(const dem::Raster& dem, size_t i) {
+    return dem.height_offset_m + dem.height_scale_m * double(dem.samples[i]);
+}
 
 // Over all valid samples, the greatest of what `value` says of each.
 template <class Value>
@@ -45,7 +47,9 @@ Result<Steps> choose_steps(const dem::Raster& dem, double asked_m) {
         while (step_m < least_m) step_m *= 2;
         return Steps{step_m, 0};
     }
-    if (asked_m < least_m) return impossible("heights up to {:.6g} m do not fit steps of {:.6g} m; at least {:.2g} m is needed", highest, asked_m, least_m);
+    if (asked_m < least_m)
+        return impossible("heights up to {:.6g} m do not fit steps of {:.6g} m; at least {:.2g} m is needed", highest, asked_m,
+                          least_m);
     return Steps{asked_m, 0};
 }
 
@@ -54,7 +58,9 @@ void store_heights(const dem::Raster& dem, Terrain& terrain) {
     parallel_ranges(dem.samples.size(), kSamplesAtATime, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             bool is_void = std::isnan(dem.samples[i]);
-            terrain.heights[i] = is_void ? kVoid : int32_t(std::lround((source_height_m(dem, i) - terrain.height_offset_m) / terrain.height_step_m));
+            terrain.heights[i] =
+                is_void ? kVoid
+                        : int32_t(std::lround((source_height_m(dem, i) - terrain.height_offset_m) / terrain.height_step_m));
         }
     });
 }

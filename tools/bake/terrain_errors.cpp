@@ -48,8 +48,12 @@ Plane plane_through(const Field& field, const std::array<GridPoint, 3>& p) {
     return {za, (du * double(vy) - dv * double(uy)) / area, (dv * double(ux) - du * double(vx)) / area, ax, ay};
 }
 
-int64_t floor_div(int64_t a, int64_t b) { return a / b - (a % b != 0 && (a % b < 0) != (b < 0)); }
-int64_t ceil_div(int64_t a, int64_t b) { return -floor_div(-a, b); }
+int64_t floor_div(int64_t a, int64_t b) {
+    return a / b - (a % b != 0 && (a % b < 0) != (b < 0));
+}
+int64_t ceil_div(int64_t a, int64_t b) {
+    return -floor_div(-a, b);
+}
 
 // Narrows [begin, end] to the columns of `row` on the inner side of edge p -> q (inside: cross product >= 0 with `sign`).
 void clip_to_edge(GridPoint p, GridPoint q, int64_t sign, int64_t row, int64_t& begin, int64_t& end) {
@@ -66,7 +70,8 @@ double triangle_deviation(const Field& field, const std::array<GridPoint, 3>& p)
     for (GridPoint corner : p)
         if (field.at(corner.x, corner.y) == kVoid) return kInfinite;
     Plane plane = plane_through(field, p);
-    int64_t area = (int64_t(p[1].x) - p[0].x) * (int64_t(p[2].y) - p[0].y) - (int64_t(p[1].y) - p[0].y) * (int64_t(p[2].x) - p[0].x);
+    int64_t area =
+        (int64_t(p[1].x) - p[0].x) * (int64_t(p[2].y) - p[0].y) - (int64_t(p[1].y) - p[0].y) * (int64_t(p[2].x) - p[0].x);
     int64_t sign = area > 0 ? 1 : -1;
     auto [low_x, high_x] = std::minmax({p[0].x, p[1].x, p[2].x});
     auto [low_y, high_y] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -82,7 +87,8 @@ double triangle_deviation(const Field& field, const std::array<GridPoint, 3>& p)
 
 double squeezed_deviation(const Field& field, const Triangle& t) {
     if (is_degenerate(field.shape, t)) return 0;
-    return triangle_deviation(field, {sample_of(field.shape, t.apex), sample_of(field.shape, t.left), sample_of(field.shape, t.right)});
+    return triangle_deviation(field,
+                              {sample_of(field.shape, t.apex), sample_of(field.shape, t.left), sample_of(field.shape, t.right)});
 }
 
 // A triangle with a horizontal base row and rows that shrink (or grow) by whole samples: begin and end move by -1, 0 or 1 a row.
@@ -148,10 +154,12 @@ double diamond_deviation(const Field& field, uint32_t x, uint32_t y, uint32_t le
         return greatest;
     }
     switch (diamond_kind(x, y, level)) {
-        case DiamondKind::square: return square_deviation(field, x, y, s, level);
+        case DiamondKind::square:
+            return square_deviation(field, x, y, s, level);
         case DiamondKind::horizontal_edge:
             return std::max(horizontal_deviation(field, x, y, s, -1), horizontal_deviation(field, x, y, s, 1));
-        default: return std::max(vertical_deviation(field, x, y, s, -1), vertical_deviation(field, x, y, s, 1));
+        default:
+            return std::max(vertical_deviation(field, x, y, s, -1), vertical_deviation(field, x, y, s, 1));
     }
 }
 
@@ -170,19 +178,23 @@ struct Level {
     }
 };
 
-// Calls fill(i, j) for every grid vertex of the level that is the middle of a square (or else of an edge) and stores what it returns.
+// Calls fill(i, j) for every grid vertex of the level that is the middle of a square (or else of an edge) and stores what it
+// returns.
 template <class Fill>
 void fill_diamonds(Level& level, bool squares, const Fill& fill) {
     parallel_ranges(level.grid.rows, kRowsAtATime, [&](size_t first, size_t end) {
         for (uint32_t j = uint32_t(first); j < end; ++j) {
             if (squares && j % 2 == 0) continue;
             uint32_t start = squares || j % 2 == 0 ? 1 : 0;
-            for (uint32_t i = start; i < level.grid.columns; i += 2) level.errors[size_t(j) * level.grid.columns + i] = fill(i, j);
+            for (uint32_t i = start; i < level.grid.columns; i += 2)
+                level.errors[size_t(j) * level.grid.columns + i] = fill(i, j);
         }
     });
 }
 
-float greatest_of_four(float a, float b, float c, float d) { return std::max(std::max(a, b), std::max(c, d)); }
+float greatest_of_four(float a, float b, float c, float d) {
+    return std::max(std::max(a, b), std::max(c, d));
+}
 
 }  // namespace
 
@@ -203,14 +215,16 @@ std::vector<std::vector<float>> measure_split_errors(const Shape& shape, std::sp
             if (t > 0) {
                 const Level& finer = levels[t - 1];
                 int64_t x = 2 * int64_t(i), y = 2 * int64_t(j);
-                children = greatest_of_four(finer.at(x - 1, y - 1), finer.at(x + 1, y - 1), finer.at(x - 1, y + 1), finer.at(x + 1, y + 1));
+                children = greatest_of_four(finer.at(x - 1, y - 1), finer.at(x + 1, y - 1), finer.at(x - 1, y + 1),
+                                            finer.at(x + 1, y + 1));
             }
             return with_own(children, i, j);
         });
         // A square splits into edges of its own level, above, below and beside it.
         fill_diamonds(level, true, [&](uint32_t i, uint32_t j) {
             int64_t x = i, y = j;
-            return with_own(greatest_of_four(level.at(x - 1, y), level.at(x + 1, y), level.at(x, y - 1), level.at(x, y + 1)), i, j);
+            return with_own(greatest_of_four(level.at(x - 1, y), level.at(x + 1, y), level.at(x, y - 1), level.at(x, y + 1)), i,
+                            j);
         });
     }
     std::vector<std::vector<float>> errors;

@@ -9,8 +9,8 @@
 namespace overlook::terrain {
 
 // For every split vertex of every level (laid out as Terrain::codes) the greatest vertical distance, in height steps, between the
-// triangles of its diamond left unsplit and any sample that they cover (borders counted in), of it and of all its descendants; infinity
-// where they cover a void. Rounded up to float.
+// triangles of its diamond left unsplit and any sample that they cover (borders counted in), of it and of all its descendants;
+// infinity where they cover a void. Rounded up to float.
 //
 // heights: [height, width] row-major in steps, |h| <= 2^28 or kVoid. Cost: O(samples * levels) time, 5.4 bytes a sample.
 // Saturation over both triangles of a diamond and all descendants makes the test "error > tolerance" nested, hence every cut

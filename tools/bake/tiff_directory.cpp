@@ -14,11 +14,19 @@ constexpr uint16_t kByte = 1, kAscii = 2, kShort = 3, kLong = 4, kFloat = 11, kD
 // Bytes of one value of a type; 0 for types that hold no number or text that we read.
 uint64_t bytes_of_type(uint16_t type) {
     switch (type) {
-        case kByte: case kAscii: return 1;
-        case kShort: return 2;
-        case kLong: case kFloat: return 4;
-        case kDouble: case kLong8: return 8;
-        default: return 0;
+        case kByte:
+        case kAscii:
+            return 1;
+        case kShort:
+            return 2;
+        case kLong:
+        case kFloat:
+            return 4;
+        case kDouble:
+        case kLong8:
+            return 8;
+        default:
+            return 0;
     }
 }
 
@@ -33,7 +41,9 @@ uint64_t number_at(std::span<const std::byte> bytes, bool is_big_endian, uint64_
 }
 
 // A whole span [offset, offset + size) inside `total` bytes, without overflow.
-bool lies_within(uint64_t offset, uint64_t size, uint64_t total) { return size <= total && offset <= total - size; }
+bool lies_within(uint64_t offset, uint64_t size, uint64_t total) {
+    return size <= total && offset <= total - size;
+}
 
 const TiffEntry* find(const TiffDirectory& directory, uint16_t tag) {
     const auto at = std::lower_bound(directory.entries.begin(), directory.entries.end(), tag,
@@ -44,18 +54,19 @@ const TiffEntry* find(const TiffDirectory& directory, uint16_t tag) {
 Result<void> check_values(const TiffDirectory& directory, const TiffEntry& entry, const char* what) {
     const uint64_t size = bytes_of_type(entry.type);
     if (size == 0)
-        return bad_input("{}: TIFF tag {} ({}) has type {}, which is not a number's", directory.name, entry.tag, what, entry.type);
+        return bad_input("{}: TIFF tag {} ({}) has type {}, which is not a number's", directory.name, entry.tag, what,
+                         entry.type);
     const uint64_t total = directory.bytes.size();
     if (entry.count > total / size || !lies_within(entry.offset, entry.count * size, total))
-        return bad_input("{}: TIFF tag {} ({}) ends after the file, which is {} bytes long; was the copy cut short?", directory.name,
-                         entry.tag, what, total);
+        return bad_input("{}: TIFF tag {} ({}) ends after the file, which is {} bytes long; was the copy cut short?",
+                         directory.name, entry.tag, what, total);
     return {};
 }
 
 // How the two forms of the file lay out their directory.
 struct Layout {
     bool is_big_endian = false;
-    uint64_t offset_bytes = 4;       // of an offset, and of the values kept in the entry itself
+    uint64_t offset_bytes = 4;  // of an offset, and of the values kept in the entry itself
     uint64_t entry_count_bytes = 2;
     uint64_t first_directory_at = 4;
     uint64_t entry_bytes = 12;
@@ -101,8 +112,8 @@ Result<TiffDirectory> read_tiff_directory(std::span<const std::byte> bytes, cons
     const Layout layout = layout_of(bytes);
     const uint64_t total = bytes.size();
     const auto cut_short = [&](uint64_t at) {
-        return bad_input("{}: TIFF directory at byte {} ends after the file, which is {} bytes long; was the copy cut short?", name, at,
-                         total);
+        return bad_input("{}: TIFF directory at byte {} ends after the file, which is {} bytes long; was the copy cut short?",
+                         name, at, total);
     };
 
     if (!lies_within(layout.first_directory_at, layout.offset_bytes, total)) return cut_short(layout.first_directory_at);
@@ -129,7 +140,8 @@ Result<std::vector<uint64_t>> tiff_integers(const TiffDirectory& directory, uint
     const TiffEntry* entry = find(directory, tag);
     if (!entry) return values;
     if (entry->type != kByte && entry->type != kShort && entry->type != kLong && entry->type != kLong8)
-        return bad_input("{}: TIFF tag {} ({}) has type {}, which is not a whole number's", directory.name, tag, what, entry->type);
+        return bad_input("{}: TIFF tag {} ({}) has type {}, which is not a whole number's", directory.name, tag, what,
+                         entry->type);
     if (auto checked = check_values(directory, *entry, what); !checked) return tl::unexpected(checked.error());
     const uint64_t size = bytes_of_type(entry->type);
     values.reserve(size_t(entry->count));
@@ -147,9 +159,12 @@ Result<std::vector<double>> tiff_doubles(const TiffDirectory& directory, uint16_
     values.reserve(size_t(entry->count));
     for (uint64_t i = 0; i < entry->count; ++i) {
         const uint64_t bits = number_at(directory.bytes, directory.is_big_endian, entry->offset + i * size, size);
-        if (entry->type == kDouble) values.push_back(std::bit_cast<double>(bits));
-        else if (entry->type == kFloat) values.push_back(double(std::bit_cast<float>(uint32_t(bits))));
-        else values.push_back(double(bits));
+        if (entry->type == kDouble)
+            values.push_back(std::bit_cast<double>(bits));
+        else if (entry->type == kFloat)
+            values.push_back(double(std::bit_cast<float>(uint32_t(bits))));
+        else
+            values.push_back(double(bits));
     }
     return values;
 }

@@ -1,4 +1,5 @@
-// The first directory of a TIFF file: a table of tags, read from bytes that may be hostile. Classic TIFF and BigTIFF, either byte order.
+// The first directory of a TIFF file: a table of tags, read from bytes that may be hostile. Classic TIFF and BigTIFF, either byte
+// order.
 #pragma once
 
 #include <cstddef>
@@ -36,15 +37,16 @@ bool is_tiff(std::span<const std::byte> bytes);
 Result<TiffDirectory> read_tiff_directory(std::span<const std::byte> bytes, const std::string& name);
 
 // The values of a tag; empty if the tag is not there. Reads types BYTE, SHORT, LONG and LONG8 as integers, these and FLOAT and
-// DOUBLE as doubles, ASCII as text up to its first zero byte. Allocates no more than eight times the bytes that the values take in
-// the file. Fails with Exit::bad_input:
+// DOUBLE as doubles, ASCII as text up to its first zero byte. Allocates no more than eight times the bytes that the values take
+// in the file. Fails with Exit::bad_input:
 //   "NAME: TIFF tag T (WHAT) ends after the file, which is N bytes long; was the copy cut short?"
 //   "NAME: TIFF tag T (WHAT) has type Y, which is not a number's"
 Result<std::vector<uint64_t>> tiff_integers(const TiffDirectory& directory, uint16_t tag, const char* what);
 Result<std::vector<double>> tiff_doubles(const TiffDirectory& directory, uint16_t tag, const char* what);
 Result<std::string> tiff_text(const TiffDirectory& directory, uint16_t tag, const char* what);
 
-// One integer, `otherwise` if the tag is not there. Fails as above, and "NAME: TIFF tag T (WHAT) has C values where one is expected".
+// One integer, `otherwise` if the tag is not there. Fails as above, and "NAME: TIFF tag T (WHAT) has C values where one is
+// expected".
 Result<uint64_t> tiff_integer(const TiffDirectory& directory, uint16_t tag, const char* what, uint64_t otherwise);
 
 }  // namespace overlook::dem

@@ -10,5 +10,6 @@ int main(int argc, char** argv) {
     command::Common common;
     bake_lod::TerrainArgs terrain;
     CLI::App* terrain_verb = bake_lod::add_terrain_verb(app, terrain, common);
-    return command::run(app, common, argc, argv, [&] { return terrain_verb->parsed() ? bake_lod::bake_terrain(terrain, common) : int(Exit::our_bug); });
+    return command::run(app, common, argc, argv,
+                        [&] { return terrain_verb->parsed() ? bake_lod::bake_terrain(terrain, common) : int(Exit::our_bug); });
 }

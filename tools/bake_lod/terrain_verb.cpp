@@ -33,7 +33,8 @@ Result<ImageRgb8> texture_of(const TerrainArgs& args, const dem::Raster& dem, co
 Result<void> check_output(const TerrainArgs& args) {
     for (const std::string& input : {args.dem, args.texture}) {
         std::error_code is_no_file;
-        if (std::filesystem::equivalent(input, args.output, is_no_file)) return bad_command("{}: is read and would be overwritten; give another --output", args.output);
+        if (std::filesystem::equivalent(input, args.output, is_no_file))
+            return bad_command("{}: is read and would be overwritten; give another --output", args.output);
     }
     return {};
 }
@@ -46,7 +47,8 @@ Result<uint64_t> write_file(const std::string& path, const terrain::Terrain& ter
     return writer->commit();
 }
 
-void report(const TerrainArgs& args, const terrain::Terrain& terrain, const dem::Raster& dem, uint64_t bytes, double seconds, const command::Common& common) {
+void report(const TerrainArgs& args, const terrain::Terrain& terrain, const dem::Raster& dem, uint64_t bytes, double seconds,
+            const command::Common& common) {
     uint64_t samples = terrain.heights.size();
     if (common.json) {
         nlohmann::ordered_json json{{"file", args.output},
@@ -63,25 +65,34 @@ void report(const TerrainArgs& args, const terrain::Terrain& terrain, const dem:
         fmt::print("{}\n", json.dump(2));
         return;
     }
-    command::note(common, fmt::format("{}: {} x {} samples, {} voids left as holes, {:.1f} MB; keeps any error from {:.3g} m", args.output, terrain.shape.width, terrain.shape.height,
-                                      dem.void_count, double(bytes) / 1e6, terrain.finest_error_m));
-    command::detail(common, fmt::format("cells of {:.6g} x {:.6g} m; baked in {:.2f} s, {:.1f} million samples a second", terrain.frame.metres_per_column, terrain.frame.metres_per_row,
-                                        seconds, double(samples) / seconds / 1e6));
+    command::note(common, fmt::format("{}: {} x {} samples, {} voids left as holes, {:.1f} MB; keeps any error from {:.3g} m",
+                                      args.output, terrain.shape.width, terrain.shape.height, dem.void_count, double(bytes) / 1e6,
+                                      terrain.finest_error_m));
+    command::detail(common, fmt::format("cells of {:.6g} x {:.6g} m; baked in {:.2f} s, {:.1f} million samples a second",
+                                        terrain.frame.metres_per_column, terrain.frame.metres_per_row, seconds,
+                                        double(samples) / seconds / 1e6));
 }
 
 }  // namespace
 
 CLI::App* add_terrain_verb(CLI::App& app, TerrainArgs& args, command::Common& common) {
-    CLI::App* verb = app.add_subcommand("terrain", "An elevation model (GeoTIFF, .hgt, grey PNG) into a quadtree that keeps any error asked of it");
+    CLI::App* verb = app.add_subcommand(
+        "terrain", "An elevation model (GeoTIFF, .hgt, grey PNG) into a quadtree that keeps any error asked of it");
     verb->add_option("DEM", args.dem, "The elevation model")->required();
     verb->add_option("-o,--output", args.output, "The baked file (.ovl)")->required();
     verb->add_option("--window", args.window, "Only this part: X,Y,W,H in samples from the north-west");
     verb->add_option("--texture", args.texture, "A picture over the whole raster (default: relief shaded from the heights)");
     verb->add_flag("--no-texture", args.no_texture, "No picture at all")->excludes("--texture");
-    verb->add_option("--cell-size-m", args.dem_options.cell_size_m, "Metres between samples, for files that do not say (PNG); overrides those that do")->check(command::number_in(1e-6, 1e6));
-    verb->add_option("--height-scale-m", args.dem_options.height_scale_m, "Metres for each unit of stored height (default: the file's own, or 1)")->check(command::number_in(1e-9, 1e6));
+    verb->add_option("--cell-size-m", args.dem_options.cell_size_m,
+                     "Metres between samples, for files that do not say (PNG); overrides those that do")
+        ->check(command::number_in(1e-6, 1e6));
+    verb->add_option("--height-scale-m", args.dem_options.height_scale_m,
+                     "Metres for each unit of stored height (default: the file's own, or 1)")
+        ->check(command::number_in(1e-9, 1e6));
     verb->add_option("--nodata", args.dem_options.nodata, "A stored value that means \"no data\" (default: the file's own)");
-    verb->add_option("--height-step-m", args.bake.height_step_m, "Store heights in steps of this many metres (default: whole numbers exactly, others to 1/1024 m); the rounding counts towards every error")
+    verb->add_option("--height-step-m", args.bake.height_step_m,
+                     "Store heights in steps of this many metres (default: whole numbers exactly, others to 1/1024 m); the "
+                     "rounding counts towards every error")
         ->check(command::number_in(1e-6, 1e4));
     command::add_common(*verb, common, command::Uses::memory);
     return verb;
@@ -98,7 +109,8 @@ int bake_terrain(TerrainArgs args, const command::Common& common) {
     auto dem = dem::open(args.dem, args.dem_options);
     if (!dem) return command::fail(kName, dem.error());
 
-    container::Provenance provenance{kName, command::version(), dem::options_in_words(args.dem_options, args.bake), {{dem->source_name, dem->source_hash}}};
+    container::Provenance provenance{
+        kName, command::version(), dem::options_in_words(args.dem_options, args.bake), {{dem->source_name, dem->source_hash}}};
     auto texture = texture_of(args, *dem, provenance);
     if (!texture) return command::fail(kName, texture.error());
 

@@ -13,7 +13,7 @@ struct TerrainArgs {
     std::string dem;
     std::string output;
     std::string window;
-    std::string texture;   // a picture over the whole raster; empty = shaded relief
+    std::string texture;  // a picture over the whole raster; empty = shaded relief
     bool no_texture = false;
     dem::Options dem_options;
     terrain::BakeOptions bake;

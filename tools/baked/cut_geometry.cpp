@@ -14,7 +14,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kRounding_m = 1e-7;
 
 // Twice the signed area of a, b, c.
-int64_t turn(RasterPoint a, RasterPoint b, RasterPoint c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+int64_t turn(RasterPoint a, RasterPoint b, RasterPoint c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 // Calls visit(point) for the samples in a triangle's bounding box.
 template <class Visit>
@@ -38,11 +40,12 @@ bool covers_half_open(const std::array<RasterPoint, 3>& p, RasterPoint q) {
     return true;
 }
 
-// How often each finest cell triangle is covered, by its centroid. Cell (i, j) is cut from north-west to south-east if i + j is even, else from
-// south-west to north-east; triangle 0 is the one on the north side.
+// How often each finest cell triangle is covered, by its centroid. Cell (i, j) is cut from north-west to south-east if i + j is
+// even, else from south-west to north-east; triangle 0 is the one on the north side.
 class CellCover {
   public:
-    explicit CellCover(const Terrain& terrain) : terrain_(terrain), columns_(terrain.shape.width - 1), counts_(size_t(columns_) * (terrain.shape.height - 1) * 2) {}
+    explicit CellCover(const Terrain& terrain)
+        : terrain_(terrain), columns_(terrain.shape.width - 1), counts_(size_t(columns_) * (terrain.shape.height - 1) * 2) {}
 
     // Scaled by 3 the centroids are whole: of cell (i, j) at (3i + 1 or 2, 3j + 1 or 2).
     void add(const std::array<RasterPoint, 3>& p) {
@@ -126,7 +129,9 @@ void check_edges(const Terrain& terrain, const CellCover& cells, std::span<const
             edges.push_back({uint64_t(std::min(a, b)) << 32 | std::max(a, b), a < b});
         }
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-    auto point = [&](uint64_t index) { return RasterPoint{int64_t(index % terrain.shape.width), int64_t(index / terrain.shape.width)}; };
+    auto point = [&](uint64_t index) {
+        return RasterPoint{int64_t(index % terrain.shape.width), int64_t(index / terrain.shape.width)};
+    };
     for (size_t i = 0; i < edges.size();) {
         size_t end = i, forward = 0;
         for (; end < edges.size() && edges[end].ends == edges[i].ends; ++end) forward += edges[end].is_forward;
@@ -164,7 +169,8 @@ Place triangle_deviation(const Source& source, const RasterPoint corners[3], con
         if (a < 0 || b < 0 || c < 0) return;
         double z = (double(a) * heights_m[0] + double(b) * heights_m[1] + double(c) * heights_m[2]) / double(sign * area);
         double there = source.at(uint32_t(q.x), uint32_t(q.y)), deviation = std::isnan(there) ? kInfinite : std::abs(z - there);
-        if (deviation > worst.measured_m) worst = {uint32_t(q.x), uint32_t(q.y), deviation, 0, std::isnan(there) ? "covers a void" : "is too far"};
+        if (deviation > worst.measured_m)
+            worst = {uint32_t(q.x), uint32_t(q.y), deviation, 0, std::isnan(there) ? "covers a void" : "is too far"};
     });
     return worst;
 }

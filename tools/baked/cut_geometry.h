@@ -42,23 +42,27 @@ struct RasterPoint {
     int64_t x = 0, y = 0;
 };
 
-// Greatest vertical distance of a triangle, given by three samples and their heights, from the source samples inside it or on its border, and where; a void that it
-// covers counts as infinite. Exact point-in-triangle arithmetic, barycentric heights.
+// Greatest vertical distance of a triangle, given by three samples and their heights, from the source samples inside it or on its
+// border, and where; a void that it covers counts as infinite. Exact point-in-triangle arithmetic, barycentric heights.
 Place triangle_deviation(const Source& source, const RasterPoint corners[3], const double heights_m[3]);
 
 struct CutReport {
     uint64_t triangle_count = 0;
     uint64_t covered_samples = 0;
-    uint64_t uncovered_valid_samples = 0;   // no triangle of three valid corners can reach them
-    uint64_t open_interior_edges = 0;       // of one triangle alone, neither on the raster's border nor on the rim of a void
-    uint64_t overused_edges = 0;            // of more than two triangles, or of two on the same side
-    uint64_t wrongly_covered_cells = 0;     // finest cell triangles with valid corners not covered exactly once, or others covered at all
+    uint64_t uncovered_valid_samples = 0;  // no triangle of three valid corners can reach them
+    uint64_t open_interior_edges = 0;      // of one triangle alone, neither on the raster's border nor on the rim of a void
+    uint64_t overused_edges = 0;           // of more than two triangles, or of two on the same side
+    uint64_t wrongly_covered_cells =
+        0;  // finest cell triangles with valid corners not covered exactly once, or others covered at all
     double greatest_deviation_m = 0;
-    Places places;                          // samples beyond the tolerance, voids covered
-    bool is_sound() const { return open_interior_edges == 0 && overused_edges == 0 && wrongly_covered_cells == 0 && places.count() == 0; }
+    Places places;  // samples beyond the tolerance, voids covered
+    bool is_sound() const {
+        return open_interior_edges == 0 && overused_edges == 0 && wrongly_covered_cells == 0 && places.count() == 0;
+    }
 };
 
-// Checks every sample, edge and cell of a cut ([3n] indices row * width + column) against the source. O(samples + triangles log triangles).
+// Checks every sample, edge and cell of a cut ([3n] indices row * width + column) against the source. O(samples + triangles log
+// triangles).
 CutReport check_cut(const Terrain& terrain, const Source& source, std::span<const uint32_t> indices, double tolerance_m);
 
 }  // namespace overlook::terrain

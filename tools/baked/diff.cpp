@@ -12,7 +12,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool have_same_bytes(const container::Reader& a, const container::Section& in_a, const container::Reader& b, const container::Section& in_b) {
+bool have_same_bytes(const container::Reader& a, const container::Section& in_a, const container::Reader& b,
+                     const container::Section& in_b) {
     auto bytes_a = a.stored(in_a), bytes_b = b.stored(in_b);
     return in_a.flags == in_b.flags && in_a.codec == in_b.codec && in_a.raw_bytes == in_b.raw_bytes &&
            std::equal(bytes_a.begin(), bytes_a.end(), bytes_b.begin(), bytes_b.end());
@@ -30,7 +31,8 @@ std::vector<std::string> section_differences(const container::Reader& a, const c
             lines.push_back(fmt::format("section {} differs: {} and {} bytes", tag, section.stored_bytes, other->stored_bytes));
     }
     for (const container::Section& section : b.sections())
-        if (a.find(section.tag) == nullptr) lines.push_back(fmt::format("section {} is in the second only", container::tag_text(section.tag)));
+        if (a.find(section.tag) == nullptr)
+            lines.push_back(fmt::format("section {} is in the second only", container::tag_text(section.tag)));
     return lines;
 }
 
@@ -68,7 +70,8 @@ int diff(const DiffArgs& args, const command::Common& common) {
     if (!b) return command::fail(name, b.error());
 
     std::vector<std::string> lines;
-    if (a->kind() != b->kind()) lines.push_back(fmt::format("kinds {} and {}", container::tag_text(a->kind()), container::tag_text(b->kind())));
+    if (a->kind() != b->kind())
+        lines.push_back(fmt::format("kinds {} and {}", container::tag_text(a->kind()), container::tag_text(b->kind())));
     for (std::string& line : section_differences(*a, *b)) lines.push_back(std::move(line));
     if (!lines.empty() && a->kind() == terrain::kKind && b->kind() == terrain::kKind) {
         auto terrain_a = terrain::read(*a);

@@ -12,8 +12,13 @@ int export_cut(const ExportArgs& args, const command::Common& common) {
     auto terrain = terrain::read(args.file);
     if (!terrain) return command::fail(name, terrain.error());
     if (args.error_m < terrain->finest_error_m)
-        return command::fail(name, Error{Exit::impossible, fmt::format("{}: cannot be exported within {:g} m: its heights are stored to {:g} m; bake with a smaller --height-step-m",
-                                                                       args.file, args.error_m, terrain->finest_error_m)});
+        return command::fail(
+            name,
+            Error{
+                Exit::impossible,
+                fmt::format(
+                    "{}: cannot be exported within {:g} m: its heights are stored to {:g} m; bake with a smaller --height-step-m",
+                    args.file, args.error_m, terrain->finest_error_m)});
     terrain::Refiner refiner(*terrain);
     terrain::Cut cut;
     refiner.cut_by_metres(args.error_m, cut);
@@ -22,14 +27,21 @@ int export_cut(const ExportArgs& args, const command::Common& common) {
     if (!report) return command::fail(name, report.error());
 
     if (common.json) {
-        nlohmann::ordered_json json{{"file", args.output},          {"error_m", args.error_m},        {"space", args.space},
-                                    {"triangles", report->triangle_count}, {"void_rim_triangles", cut.void_rim_triangle_count},
-                                    {"vertices", report->vertex_count},    {"bytes", report->file_bytes}, {"position_rounding_m", report->rounding_m}};
+        nlohmann::ordered_json json{{"file", args.output},
+                                    {"error_m", args.error_m},
+                                    {"space", args.space},
+                                    {"triangles", report->triangle_count},
+                                    {"void_rim_triangles", cut.void_rim_triangle_count},
+                                    {"vertices", report->vertex_count},
+                                    {"bytes", report->file_bytes},
+                                    {"position_rounding_m", report->rounding_m}};
         fmt::print("{}\n", json.dump(2));
     } else {
-        command::note(common, fmt::format("{}: {} triangles ({} on void rims), {} vertices, within {:g} m of every sample covered{}", args.output, report->triangle_count,
-                                          cut.void_rim_triangle_count, report->vertex_count, args.error_m,
-                                          report->rounding_m > 0 ? fmt::format("; positions rounded by up to {:.2g} m", report->rounding_m) : ""));
+        command::note(
+            common,
+            fmt::format("{}: {} triangles ({} on void rims), {} vertices, within {:g} m of every sample covered{}", args.output,
+                        report->triangle_count, cut.void_rim_triangle_count, report->vertex_count, args.error_m,
+                        report->rounding_m > 0 ? fmt::format("; positions rounded by up to {:.2g} m", report->rounding_m) : ""));
     }
     return int(Exit::done);
 }

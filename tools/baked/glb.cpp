@@ -61,7 +61,8 @@ std::vector<float> gltf_positions(const MeshData& mesh, const double middle[3], 
     std::vector<float> out;
     out.reserve(mesh.positions.size());
     for (size_t i = 0; i < mesh.positions.size(); i += 3) {
-        double relative[3] = {mesh.positions[i] - middle[0], mesh.positions[i + 2] - middle[2], -(mesh.positions[i + 1] - middle[1])};
+        double relative[3] = {mesh.positions[i] - middle[0], mesh.positions[i + 2] - middle[2],
+                              -(mesh.positions[i + 1] - middle[1])};
         for (double value : relative) {
             out.push_back(float(value));
             rounding_m = std::max(rounding_m, std::abs(double(float(value)) - value));
@@ -78,7 +79,8 @@ std::vector<uint8_t> gltf_colours(const std::vector<uint8_t>& srgb) {
         linear[i] = uint8_t(std::lround(255 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
     }
     std::vector<uint8_t> out;
-    for (size_t i = 0; i < srgb.size(); i += 3) out.insert(out.end(), {linear[srgb[i]], linear[srgb[i + 1]], linear[srgb[i + 2]], uint8_t(255)});
+    for (size_t i = 0; i < srgb.size(); i += 3)
+        out.insert(out.end(), {linear[srgb[i]], linear[srgb[i + 1]], linear[srgb[i + 2]], uint8_t(255)});
     return out;
 }
 
@@ -99,17 +101,21 @@ tinygltf::Model model_of(const MeshData& mesh, MeshReport& report) {
     primitive.attributes["POSITION"] = add_accessor(model, view, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, count);
     for (size_t axis = 0; axis < 3; ++axis) {
         float low = 0, high = 0;
-        for (size_t i = axis; i < positions.size(); i += 3) low = i == axis ? positions[i] : std::min(low, positions[i]), high = i == axis ? positions[i] : std::max(high, positions[i]);
+        for (size_t i = axis; i < positions.size(); i += 3)
+            low = i == axis ? positions[i] : std::min(low, positions[i]),
+            high = i == axis ? positions[i] : std::max(high, positions[i]);
         model.accessors.back().minValues.push_back(low);
         model.accessors.back().maxValues.push_back(high);
     }
     if (!mesh.colours.empty()) {
         std::vector<uint8_t> colours = gltf_colours(mesh.colours);
         view = add_view(model, colours.data(), colours.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
-        primitive.attributes["COLOR_0"] = add_accessor(model, view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, count);
+        primitive.attributes["COLOR_0"] =
+            add_accessor(model, view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, count);
     }
     view = add_view(model, mesh.indices.data(), mesh.indices.size() * sizeof(uint32_t), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    primitive.indices = add_accessor(model, view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, mesh.indices.size());
+    primitive.indices =
+        add_accessor(model, view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, mesh.indices.size());
 
     tinygltf::Material material;
     material.pbrMetallicRoughness.metallicFactor = 0;
@@ -136,7 +142,8 @@ Result<void> write_glb(const std::string& path, const MeshData& mesh, MeshReport
     if (mesh.indices.empty()) return bad_input("{}: the cut has no triangles, and glTF cannot hold a mesh of none", path);
     tinygltf::Model model = model_of(mesh, report);
     std::ostringstream stream;
-    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true)) return cannot_write("{}: the glTF writer refused the mesh", path);
+    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true))
+        return cannot_write("{}: the glTF writer refused the mesh", path);
     std::string bytes = std::move(stream).str();
     report.file_bytes = bytes.size();
     return write_file(path, std::string_view(bytes));

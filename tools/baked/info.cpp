@@ -23,9 +23,13 @@ ordered_json sections_json(const container::Reader& file) {
 }
 
 ordered_json provenance_json(const container::Provenance& provenance) {
-    ordered_json json{{"program", provenance.program}, {"version", provenance.version}, {"options", ordered_json::object()}, {"inputs", ordered_json::array()}};
+    ordered_json json{{"program", provenance.program},
+                      {"version", provenance.version},
+                      {"options", ordered_json::object()},
+                      {"inputs", ordered_json::array()}};
     for (const auto& [name, value] : provenance.options) json["options"][name] = value;
-    for (const container::InputIdentity& input : provenance.inputs) json["inputs"].push_back({{"name", input.name}, {"xxh3_128", input.hash}});
+    for (const container::InputIdentity& input : provenance.inputs)
+        json["inputs"].push_back({{"name", input.name}, {"xxh3_128", input.hash}});
     return json;
 }
 
@@ -64,27 +68,36 @@ ordered_json terrain_json(const terrain::Terrain& terrain, uint64_t terrain_byte
 }
 
 void print_text(const ordered_json& json) {
-    fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(), json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
+    fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
+               json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
-        fmt::print("  {}  {:>10} bytes at {:>10}, {:>10} raw, {}\n", section["tag"].get<std::string>(), section["stored_bytes"].get<uint64_t>(),
-                   section["offset"].get<uint64_t>(), section["raw_bytes"].get<uint64_t>(), section["codec"].get<std::string>());
+        fmt::print("  {}  {:>10} bytes at {:>10}, {:>10} raw, {}\n", section["tag"].get<std::string>(),
+                   section["stored_bytes"].get<uint64_t>(), section["offset"].get<uint64_t>(),
+                   section["raw_bytes"].get<uint64_t>(), section["codec"].get<std::string>());
     if (json.contains("terrain")) {
         const ordered_json& t = json["terrain"];
-        fmt::print("terrain: {} x {} samples, cells {:.4g} x {:.4g} m, {:.4g} x {:.4g} km\n", t["columns"].get<uint32_t>(), t["rows"].get<uint32_t>(),
-                   t["metres_per_column"].get<double>(), t["metres_per_row"].get<double>(),
-                   (t["columns"].get<uint32_t>() - 1) * t["metres_per_column"].get<double>() / 1000, (t["rows"].get<uint32_t>() - 1) * t["metres_per_row"].get<double>() / 1000);
-        if (!t["lowest_m"].is_null()) fmt::print("heights: {:.6g} .. {:.6g} m in steps of {:.4g} m, {} voids\n", t["lowest_m"].get<double>(), t["highest_m"].get<double>(), t["height_step_m"].get<double>(), t["voids"].get<uint64_t>());
-        fmt::print("promise: any error from {:.4g} m (finest) to {:.4g} m (coarsest), against every sample\n", t["finest_error_m"].get<double>(), t["coarsest_error_m"].get<double>());
-        fmt::print("size: {:.2f} bytes a sample without the texture ({} x {} px)\n", t["bytes_per_sample"].get<double>(), t["texture_px"][0].get<uint32_t>(), t["texture_px"][1].get<uint32_t>());
+        fmt::print("terrain: {} x {} samples, cells {:.4g} x {:.4g} m, {:.4g} x {:.4g} km\n", t["columns"].get<uint32_t>(),
+                   t["rows"].get<uint32_t>(), t["metres_per_column"].get<double>(), t["metres_per_row"].get<double>(),
+                   (t["columns"].get<uint32_t>() - 1) * t["metres_per_column"].get<double>() / 1000,
+                   (t["rows"].get<uint32_t>() - 1) * t["metres_per_row"].get<double>() / 1000);
+        if (!t["lowest_m"].is_null())
+            fmt::print("heights: {:.6g} .. {:.6g} m in steps of {:.4g} m, {} voids\n", t["lowest_m"].get<double>(),
+                       t["highest_m"].get<double>(), t["height_step_m"].get<double>(), t["voids"].get<uint64_t>());
+        fmt::print("promise: any error from {:.4g} m (finest) to {:.4g} m (coarsest), against every sample\n",
+                   t["finest_error_m"].get<double>(), t["coarsest_error_m"].get<double>());
+        fmt::print("size: {:.2f} bytes a sample without the texture ({} x {} px)\n", t["bytes_per_sample"].get<double>(),
+                   t["texture_px"][0].get<uint32_t>(), t["texture_px"][1].get<uint32_t>());
         if (t.contains("place"))
-            fmt::print("place: {} about latitude {:.6f}, longitude {:.6f}; cells true to {:.3f} %\n", t["place"]["crs"].get<std::string>(), t["place"]["centre_latitude_deg"].get<double>(),
+            fmt::print("place: {} about latitude {:.6f}, longitude {:.6f}; cells true to {:.3f} %\n",
+                       t["place"]["crs"].get<std::string>(), t["place"]["centre_latitude_deg"].get<double>(),
                        t["place"]["centre_longitude_deg"].get<double>(), 100 * t["place"]["scale_distortion"].get<double>());
     }
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
     fmt::print("\n");
-    for (const ordered_json& input : p["inputs"]) fmt::print("from: {} (xxh3-128 {})\n", input["name"].get<std::string>(), input["xxh3_128"].get<std::string>());
+    for (const ordered_json& input : p["inputs"])
+        fmt::print("from: {} (xxh3-128 {})\n", input["name"].get<std::string>(), input["xxh3_128"].get<std::string>());
 }
 
 }  // namespace
@@ -94,13 +107,18 @@ int info(const InfoArgs& args, const command::Common& common) {
     if (!file) return command::fail("baked info", file.error());
     auto provenance = file->provenance();
     if (!provenance) return command::fail("baked info", provenance.error());
-    ordered_json json{{"file", args.file}, {"kind", container::tag_text(file->kind())}, {"bytes", file->file_bytes()}, {"sections", sections_json(*file)}};
+    ordered_json json{{"file", args.file},
+                      {"kind", container::tag_text(file->kind())},
+                      {"bytes", file->file_bytes()},
+                      {"sections", sections_json(*file)}};
     if (file->kind() == terrain::kKind) {
         auto read = terrain::read(*file);
         if (!read) return command::fail("baked info", read.error());
         uint64_t terrain_bytes = 0;
         for (const container::Section& section : file->sections())
-            if (section.tag == container::tag("TBLK") || section.tag == container::tag("TDIR") || section.tag == container::tag("TINF")) terrain_bytes += section.stored_bytes;
+            if (section.tag == container::tag("TBLK") || section.tag == container::tag("TDIR") ||
+                section.tag == container::tag("TINF"))
+                terrain_bytes += section.stored_bytes;
         json["terrain"] = terrain_json(*read, terrain_bytes);
     }
     json["provenance"] = provenance_json(*provenance);

@@ -16,10 +16,14 @@ int main(int argc, char** argv) {
     CLI::App* info_verb = app.add_subcommand("info", "What is in a file: its sections, its promises, where it came from");
     info_verb->add_option("FILE", info.file, "A baked file")->required();
 
-    CLI::App* verify_verb = app.add_subcommand("verify", "Re-proves every promise of a baked terrain against the elevation model that it was baked from; exit 1 if one is broken");
+    CLI::App* verify_verb = app.add_subcommand(
+        "verify",
+        "Re-proves every promise of a baked terrain against the elevation model that it was baked from; exit 1 if one is broken");
     verify_verb->add_option("FILE", verify.file, "A baked file")->required();
     verify_verb->add_option("--source", verify.source, "The elevation model it was baked from")->required();
-    verify_verb->add_option("--error-m", verify.error_m, "Tolerances in metres at which a whole cut is checked; may be repeated (default 100, 50, 20, 5, 1)")
+    verify_verb
+        ->add_option("--error-m", verify.error_m,
+                     "Tolerances in metres at which a whole cut is checked; may be repeated (default 100, 50, 20, 5, 1)")
         ->check(command::number_in(0.0, 1e6));
 
     CLI::App* diff_verb = app.add_subcommand("diff", "Compares two baked files; exit 1 if they differ");
@@ -28,11 +32,17 @@ int main(int argc, char** argv) {
 
     CLI::App* export_verb = app.add_subcommand("export", "Writes the triangles of one cut as a mesh (.ply, .glb)");
     export_verb->add_option("FILE", cut.file, "A baked file")->required();
-    export_verb->add_option("--error-m", cut.error_m, "Greatest vertical distance in metres between the mesh and any sample it covers")
-        ->required()->check(command::number_in(0.0, 1e6));
+    export_verb
+        ->add_option("--error-m", cut.error_m, "Greatest vertical distance in metres between the mesh and any sample it covers")
+        ->required()
+        ->check(command::number_in(0.0, 1e6));
     export_verb->add_option("-o,--output", cut.output, "The mesh: .ply or .glb")->required();
-    export_verb->add_option("--space", cut.space, "local: x right, y up the raster, z height, in metres. raster: x = column, y = row of the source (north first), z = metres, for checking")
-        ->check(CLI::IsMember({"local", "raster"}))->capture_default_str();
+    export_verb
+        ->add_option("--space", cut.space,
+                     "local: x right, y up the raster, z height, in metres. raster: x = column, y = row of the source (north "
+                     "first), z = metres, for checking")
+        ->check(CLI::IsMember({"local", "raster"}))
+        ->capture_default_str();
 
     for (CLI::App* verb : {info_verb, verify_verb, diff_verb, export_verb}) command::add_common(*verb, common);
     return command::run(app, common, argc, argv, [&] {

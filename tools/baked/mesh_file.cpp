@@ -15,7 +15,9 @@ bool ends_with(const std::string& text, const std::string& end) {
 // The texture's colour at a sample, nearest pixel.
 void append_colour(const terrain::Terrain& terrain, uint32_t column, uint32_t row, std::vector<uint8_t>& colours) {
     const ImageRgb8& texture = terrain.texture;
-    auto pixel = [](uint32_t at, uint32_t samples, uint32_t pixels) { return (uint64_t(at) * (pixels - 1) + (samples - 1) / 2) / (samples - 1); };
+    auto pixel = [](uint32_t at, uint32_t samples, uint32_t pixels) {
+        return (uint64_t(at) * (pixels - 1) + (samples - 1) / 2) / (samples - 1);
+    };
     uint64_t x = pixel(column, terrain.shape.width, texture.width), y = pixel(row, terrain.shape.height, texture.height);
     const uint8_t* rgb = texture.pixels.data() + (y * texture.width + x) * 3;
     colours.insert(colours.end(), rgb, rgb + 3);
@@ -54,15 +56,20 @@ void append_number(std::string& out, T value) {
 }
 
 Result<void> write_ply(const std::string& path, const MeshData& mesh, MeshReport& report) {
-    bool floats_are_exact = std::all_of(mesh.positions.begin(), mesh.positions.end(), [](double p) { return double(float(p)) == p; });
+    bool floats_are_exact =
+        std::all_of(mesh.positions.begin(), mesh.positions.end(), [](double p) { return double(float(p)) == p; });
     bool is_coloured = !mesh.colours.empty();
     const char* type = floats_are_exact ? "float" : "double";
     size_t vertex_count = mesh.positions.size() / 3;
-    std::string out = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n", vertex_count, type, type, type);
+    std::string out =
+        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n",
+                    vertex_count, type, type, type);
     if (is_coloured) out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     out += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.indices.size() / 3);
     for (size_t v = 0; v < vertex_count; ++v) {
-        for (size_t k = 0; k < 3; ++k) floats_are_exact ? append_number(out, float(mesh.positions[3 * v + k])) : append_number(out, mesh.positions[3 * v + k]);
+        for (size_t k = 0; k < 3; ++k)
+            floats_are_exact ? append_number(out, float(mesh.positions[3 * v + k]))
+                             : append_number(out, mesh.positions[3 * v + k]);
         if (is_coloured) out.append(reinterpret_cast<const char*>(mesh.colours.data() + 3 * v), 3);
     }
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -75,7 +82,8 @@ Result<void> write_ply(const std::string& path, const MeshData& mesh, MeshReport
 
 }  // namespace
 
-Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const terrain::Terrain& terrain, std::span<const uint32_t> indices) {
+Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const terrain::Terrain& terrain,
+                              std::span<const uint32_t> indices) {
     bool is_ply = ends_with(path, ".ply"), is_glb = ends_with(path, ".glb");
     if (!is_ply && !is_glb) return bad_command("{}: a mesh is written as .ply or .glb; another ending was given", path);
     if (is_glb && space == MeshSpace::raster) return bad_command("{}: raster space is for .ply; glTF is in metres", path);

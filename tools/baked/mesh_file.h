@@ -21,10 +21,12 @@ struct MeshReport {
     double rounding_m = 0;  // what storing positions as 32-bit floats may move a vertex by; 0 where doubles or exact
 };
 
-// Writes a cut of a terrain ([3n] indices, row * width + column) as binary little-endian PLY or as GLB, by the path's extension, atomically. Only vertices in use are
-// written, in raster order. PLY coordinates are floats where that is exact, else doubles; GLB has floats about a translated node.
-// Colours are those of the texture, if there is one and space is local. Fails with Exit::cannot_write, or Exit::bad_command for another extension.
-Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const terrain::Terrain& terrain, std::span<const uint32_t> indices);
+// Writes a cut of a terrain ([3n] indices, row * width + column) as binary little-endian PLY or as GLB, by the path's extension,
+// atomically. Only vertices in use are written, in raster order. PLY coordinates are floats where that is exact, else doubles;
+// GLB has floats about a translated node. Colours are those of the texture, if there is one and space is local. Fails with
+// Exit::cannot_write, or Exit::bad_command for another extension.
+Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const terrain::Terrain& terrain,
+                              std::span<const uint32_t> indices);
 
 // One triangle list with positions and colours, ready for a file.
 struct MeshData {

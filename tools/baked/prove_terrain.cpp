@@ -23,11 +23,13 @@ void prove_heights(const Terrain& terrain, const Source& source, Proof& proof) {
             proof.void_count += std::isnan(there);
             if (is_void != std::isnan(there)) {
                 double infinite = std::numeric_limits<double>::infinity();
-                proof.heights.add({column, row, infinite, terrain.finest_error_m, is_void ? "is stored as a void" : "is a void in the source"});
+                proof.heights.add(
+                    {column, row, infinite, terrain.finest_error_m, is_void ? "is stored as a void" : "is a void in the source"});
             } else if (!is_void) {
                 double distance_m = std::abs(terrain.height_m(column, row) - there);
                 proof.greatest_stored_m = std::max(proof.greatest_stored_m, distance_m);
-                if (distance_m > terrain.finest_error_m + kRounding_m) proof.heights.add({column, row, distance_m, terrain.finest_error_m, "is stored too far"});
+                if (distance_m > terrain.finest_error_m + kRounding_m)
+                    proof.heights.add({column, row, distance_m, terrain.finest_error_m, "is stored too far"});
             }
         }
     proof.sample_count = uint64_t(source.width) * source.height;
@@ -96,7 +98,8 @@ Source source_of(const dem::Raster& dem) {
     return source;
 }
 
-Proof prove(const Terrain& terrain, const Source& source, std::span<const double> tolerances_m, const std::function<void(double)>& progress) {
+Proof prove(const Terrain& terrain, const Source& source, std::span<const double> tolerances_m,
+            const std::function<void(double)>& progress) {
     Proof proof;
     prove_heights(terrain, source, proof);
     double steps = double(terrain.shape.root_log2) + 2 * double(tolerances_m.size()) + 1, done = 1;

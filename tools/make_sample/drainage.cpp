@@ -40,8 +40,7 @@ void flood(const Grid& height_m, const std::vector<uint8_t>& is_outlet, Drainage
 }
 
 // Lower filled neighbours stand earlier in the order, so the order stays right.
-void choose_steepest(uint32_t side, const std::vector<uint8_t>& is_outlet, double wander, uint64_t seed,
-                     Drainage& out) {
+void choose_steepest(uint32_t side, const std::vector<uint8_t>& is_outlet, double wander, uint64_t seed, Drainage& out) {
     parallel_ranges(out.receiver.size(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t cell = begin; cell < end; ++cell) {
             if (is_outlet[cell]) continue;

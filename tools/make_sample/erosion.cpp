@@ -73,8 +73,7 @@ void creep_soil(Grid& height_m, const Grid& strength, int passes) {
     }
 }
 
-void widen_valleys(Grid& height_m, const std::vector<uint8_t>& is_outlet, double least_area_m2,
-                   double width_m) {
+void widen_valleys(Grid& height_m, const std::vector<uint8_t>& is_outlet, double least_area_m2, double width_m) {
     Drainage drainage = drain(height_m, is_outlet, 0, 0);
     std::vector<double> area_m2 = drained_area_m2(drainage, height_m.cell_m);
     std::vector<double> river_m = height_m.values;
@@ -87,12 +86,10 @@ void widen_valleys(Grid& height_m, const std::vector<uint8_t>& is_outlet, double
         int64_t reach = int64_t(3 * half_m / height_m.cell_m);
         int64_t column = cell % side, row = cell / side;
         for (int64_t y = std::max<int64_t>(0, row - reach); y <= std::min(side - 1, row + reach); ++y)
-            for (int64_t x = std::max<int64_t>(0, column - reach); x <= std::min(side - 1, column + reach);
-                 ++x) {
+            for (int64_t x = std::max<int64_t>(0, column - reach); x <= std::min(side - 1, column + reach); ++x) {
                 double dx = double(x - column), dy = double(y - row);
                 double beyond = std::sqrt(dx * dx + dy * dy) * height_m.cell_m / half_m;
-                double floor_m =
-                    river_m[size_t(cell)] + half_m * (0.02 * beyond + 0.14 * beyond * beyond * beyond);
+                double floor_m = river_m[size_t(cell)] + half_m * (0.02 * beyond + 0.14 * beyond * beyond * beyond);
                 double& here_m = height_m.values[size_t(y * side + x)];
                 here_m = std::min(here_m, floor_m);
             }

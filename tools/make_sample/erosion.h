@@ -9,8 +9,7 @@
 namespace overlook::sample {
 
 struct Rivers {
-    double step =
-        0.15;  // time a step; a wave of incision runs up a river at sqrt(drained m2) metres a time unit
+    double step = 0.15;  // time a step; a wave of incision runs up a river at sqrt(drained m2) metres a time unit
     int step_count = 10;
     double wander = 0.5;  // see drain()
     uint64_t seed = 1;
@@ -35,8 +34,7 @@ void creep_soil(Grid& height_m, const Grid& strength, int passes);
 
 // Widens valleys with more than least_area_m2 of drained area into troughs: floor half-width width_m * (A / 1
 // km2)^(1/4), beyond it walls that steepen with the distance. Only lowers.
-void widen_valleys(Grid& height_m, const std::vector<uint8_t>& is_outlet, double least_area_m2,
-                   double width_m);
+void widen_valleys(Grid& height_m, const std::vector<uint8_t>& is_outlet, double least_area_m2, double width_m);
 
 // Raises every depression to the height at which it overflows: lakes. Returns how many cells it raised.
 size_t fill_depressions(Grid& height_m, const std::vector<uint8_t>& is_outlet);

@@ -51,12 +51,11 @@ Field text(uint16_t tag, const std::string& value) {
     return field;
 }
 
-std::vector<Field> fields_of(uint32_t width, uint32_t height, const Placement& placement,
-                             std::optional<int> nodata, uint32_t rows_per_strip) {
+std::vector<Field> fields_of(uint32_t width, uint32_t height, const Placement& placement, std::optional<int> nodata,
+                             uint32_t rows_per_strip) {
     uint32_t strip_count = (height + rows_per_strip - 1) / rows_per_strip;
     std::vector<uint32_t> offsets(strip_count), sizes(strip_count);
-    for (uint32_t i = 0; i < strip_count; ++i)
-        sizes[i] = 4 * width * std::min(rows_per_strip, height - i * rows_per_strip);
+    for (uint32_t i = 0; i < strip_count; ++i) sizes[i] = 4 * width * std::min(rows_per_strip, height - i * rows_per_strip);
     std::vector<Field> fields;
     fields.push_back(longs(256, std::span(&width, 1)));
     fields.push_back(longs(257, std::span(&height, 1)));
@@ -78,8 +77,8 @@ std::vector<Field> fields_of(uint32_t width, uint32_t height, const Placement& p
 
 }  // namespace
 
-std::vector<std::byte> geotiff_bytes(std::span<const float> samples, uint32_t width, uint32_t height,
-                                     const Placement& placement, std::optional<int> nodata) {
+std::vector<std::byte> geotiff_bytes(std::span<const float> samples, uint32_t width, uint32_t height, const Placement& placement,
+                                     std::optional<int> nodata) {
     assert(samples.size() == size_t(width) * height && samples.size() < (size_t(1) << 30) - 4096);
     uint32_t rows_per_strip = std::clamp(kStripTargetBytes / (4 * width), 1u, height);
     std::vector<Field> fields = fields_of(width, height, placement, nodata, rows_per_strip);

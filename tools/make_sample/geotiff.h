@@ -21,7 +21,7 @@ struct Placement {
 // The bytes of the file (TIFF 6.0; OGC GeoTIFF 1.1). samples: [height, width] row-major, north first; width
 // and height at least 1. Each sample is a point, not an area. `nodata`, if given, is named in the file (tag
 // 42113). Under 4 GiB.
-std::vector<std::byte> geotiff_bytes(std::span<const float> samples, uint32_t width, uint32_t height,
-                                     const Placement& placement, std::optional<int> nodata);
+std::vector<std::byte> geotiff_bytes(std::span<const float> samples, uint32_t width, uint32_t height, const Placement& placement,
+                                     std::optional<int> nodata);
 
 }  // namespace overlook::sample

@@ -15,8 +15,7 @@ struct Grid {
     std::vector<double> values;
 
     Grid() = default;
-    Grid(uint32_t side_, double cell_m_, double value = 0)
-        : side(side_), cell_m(cell_m_), values(size_t(side_) * side_, value) {}
+    Grid(uint32_t side_, double cell_m_, double value = 0) : side(side_), cell_m(cell_m_), values(size_t(side_) * side_, value) {}
     double& at(uint32_t column, uint32_t row) { return values[size_t(row) * side + column]; }
     double at(uint32_t column, uint32_t row) const { return values[size_t(row) * side + column]; }
     bool is_border(size_t index) const {

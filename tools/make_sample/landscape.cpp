@@ -104,8 +104,8 @@ Grid grow_range(uint64_t seed, uint32_t side, double cell_m, Ground& ground) {
         double level_cell_m = cell_m * double(side - 1) / double(sides[level] - 1);
         ground = make_ground(seed, sides[level], level_cell_m);
         bool is_first = height_m.values.empty();
-        height_m = is_first ? Grid(sides[level], level_cell_m, kBaseM)
-                            : refine(height_m, sides[level], level_cell_m, seed + level);
+        height_m =
+            is_first ? Grid(sides[level], level_cell_m, kBaseM) : refine(height_m, sides[level], level_cell_m, seed + level);
         for (size_t i = 0; i < height_m.values.size(); ++i)
             if (ground.is_outlet[i])
                 height_m.values[i] = kBaseM;

@@ -13,16 +13,13 @@ int make_dem(const sample::DemOptions& options, const std::string& folder, const
     if (!report) return command::fail("make-sample dem", report.error());
 
     for (const std::string& file : report->files) command::note(common, "wrote " + file);
-    command::detail(common, fmt::format("{} samples a side every {} m, {:.1f}..{:.1f} m high, {} void",
-                                        options.landscape.side, options.landscape.cell_size_m,
-                                        report->lowest_m, report->highest_m, report->void_samples));
+    command::detail(common,
+                    fmt::format("{} samples a side every {} m, {:.1f}..{:.1f} m high, {} void", options.landscape.side,
+                                options.landscape.cell_size_m, report->lowest_m, report->highest_m, report->void_samples));
     if (common.json) {
-        nlohmann::ordered_json json = {{"files", report->files},
-                                       {"size", options.landscape.side},
-                                       {"cell_size_m", options.landscape.cell_size_m},
-                                       {"lowest_m", report->lowest_m},
-                                       {"highest_m", report->highest_m},
-                                       {"void_samples", report->void_samples}};
+        nlohmann::ordered_json json = {
+            {"files", report->files},       {"size", options.landscape.side}, {"cell_size_m", options.landscape.cell_size_m},
+            {"lowest_m", report->lowest_m}, {"highest_m", report->highest_m}, {"void_samples", report->void_samples}};
         fmt::print("{}\n", json.dump(2));
     }
     return int(Exit::done);
@@ -40,8 +37,7 @@ int main(int argc, char** argv) {
     CLI::App* dem = app.add_subcommand("dem", "A landscape as an elevation model: dem.tif, recipe.toml");
     dem->add_option("-o,--output", folder, "Folder to write into")->required();
     dem->add_option("--size", options.landscape.side, "Samples a side")->capture_default_str();
-    dem->add_option("--cell-size-m", options.landscape.cell_size_m, "Metres between samples")
-        ->capture_default_str();
+    dem->add_option("--cell-size-m", options.landscape.cell_size_m, "Metres between samples")->capture_default_str();
     dem->add_option("--voids", options.void_count, "Holes without data to dig")->capture_default_str();
     command::add_common(*dem, common, command::Uses::seed);
 

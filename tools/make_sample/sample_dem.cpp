@@ -27,8 +27,8 @@ std::string recipe_of(const DemOptions& options) {
         "# Written by make-sample; the same lines give the same bytes.\n"
         "sample = \"dem\"\nversion = \"{}\"\nseed = {}\nsize = {}\ncell_size_m = {}\nvoids = {}\n\n"
         "[dem]\nfile = \"dem.tif\"\nepsg = {}\n",
-        OVERLOOK_VERSION, options.landscape.seed, options.landscape.side, options.landscape.cell_size_m,
-        options.void_count, Placement{}.epsg);
+        OVERLOOK_VERSION, options.landscape.seed, options.landscape.side, options.landscape.cell_size_m, options.void_count,
+        Placement{}.epsg);
 }
 
 }  // namespace
@@ -36,14 +36,11 @@ std::string recipe_of(const DemOptions& options) {
 uint64_t dig_voids(std::vector<float>& samples, uint32_t side, uint32_t count, uint64_t seed, float nodata) {
     uint64_t void_samples = 0;
     for (uint32_t n = 0; n < count; ++n) {
-        double column = unit_from_hash(hash_of(seed, n, 1)) * side,
-               row = unit_from_hash(hash_of(seed, n, 2)) * side;
+        double column = unit_from_hash(hash_of(seed, n, 1)) * side, row = unit_from_hash(hash_of(seed, n, 2)) * side;
         double share = unit_from_hash(hash_of(seed, n, 3));
         double radius = 1 + share * share * side / 32;
-        uint32_t left = uint32_t(std::max(0.0, column - radius)),
-                 right = uint32_t(std::min(side - 1.0, column + radius));
-        uint32_t top = uint32_t(std::max(0.0, row - radius)),
-                 bottom = uint32_t(std::min(side - 1.0, row + radius));
+        uint32_t left = uint32_t(std::max(0.0, column - radius)), right = uint32_t(std::min(side - 1.0, column + radius));
+        uint32_t top = uint32_t(std::max(0.0, row - radius)), bottom = uint32_t(std::min(side - 1.0, row + radius));
         for (uint32_t y = top; y <= bottom; ++y)
             for (uint32_t x = left; x <= right; ++x) {
                 double dx = (x - column) / radius, dy = (y - row) / radius;
@@ -68,20 +65,18 @@ Result<DemReport> make_dem(const DemOptions& options, const std::string& folder)
     auto [lowest, highest] = std::minmax_element(landscape.height_m.begin(), landscape.height_m.end());
     report.lowest_m = *lowest;
     report.highest_m = *highest;
-    report.void_samples = dig_voids(landscape.height_m, landscape.side, options.void_count,
-                                    options.landscape.seed + 7000, float(kNodata));
+    report.void_samples =
+        dig_voids(landscape.height_m, landscape.side, options.void_count, options.landscape.seed + 7000, float(kNodata));
 
     Placement placement;
     placement.cell_m = options.landscape.cell_size_m;
     std::optional<int> nodata;
     if (options.void_count > 0) nodata = kNodata;
-    std::vector<std::byte> tiff =
-        geotiff_bytes(landscape.height_m, landscape.side, landscape.side, placement, nodata);
+    std::vector<std::byte> tiff = geotiff_bytes(landscape.height_m, landscape.side, landscape.side, placement, nodata);
     std::string dem_path = (std::filesystem::path(folder) / "dem.tif").string();
     std::string recipe_path = (std::filesystem::path(folder) / "recipe.toml").string();
     if (Result<void> written = write_file(dem_path, tiff); !written) return tl::unexpected(written.error());
-    if (Result<void> written = write_file(recipe_path, recipe_of(options)); !written)
-        return tl::unexpected(written.error());
+    if (Result<void> written = write_file(recipe_path, recipe_of(options)); !written) return tl::unexpected(written.error());
     report.files = {dem_path, recipe_path};
     return report;
 }

@@ -16,7 +16,9 @@ struct Point {
 using Corners = std::array<Point, 3>;
 
 // Twice the area of a, b, c; positive if they go from the x axis towards the y axis.
-int64_t area2(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+int64_t area2(Point a, Point b, Point c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 // The two finest triangles of the cell whose first corner is (x, y), each from the x axis towards the y axis: "upper" one first.
 Corners finest_triangle(int64_t x, int64_t y, int which) {
@@ -29,7 +31,11 @@ Corners finest_triangle(int64_t x, int64_t y, int which) {
 class Checker {
   public:
     Checker(const Mesh& mesh, const Raster& raster, double tolerance_m)
-        : mesh_(mesh), raster_(raster), tolerance_m_(tolerance_m), is_covered_(raster.heights_m.size()), cell_cover_(raster.heights_m.size() * 2),
+        : mesh_(mesh),
+          raster_(raster),
+          tolerance_m_(tolerance_m),
+          is_covered_(raster.heights_m.size()),
+          cell_cover_(raster.heights_m.size() * 2),
           steps_(raster.heights_m.size() * 4) {}
 
     Report run() {
@@ -45,7 +51,9 @@ class Checker {
   private:
     size_t index(Point p) const { return size_t(p.y * raster_.width + p.x); }
     bool is_void(Point p) const { return std::isnan(raster_.heights_m[index(p)]); }
-    bool has_void(const Corners& corners) const { return std::any_of(corners.begin(), corners.end(), [&](Point p) { return is_void(p); }); }
+    bool has_void(const Corners& corners) const {
+        return std::any_of(corners.begin(), corners.end(), [&](Point p) { return is_void(p); });
+    }
 
     bool place(uint32_t vertex, Point& p) const {
         const auto& [x, y, z] = mesh_.vertices[vertex];
@@ -96,8 +104,8 @@ class Checker {
             }
     }
 
-    // A finest triangle counts as covered where its centroid is; all coordinates times 3 to stay whole. A centroid on a border belongs
-    // to the triangle below or to the right of it, so to one only.
+    // A finest triangle counts as covered where its centroid is; all coordinates times 3 to stay whole. A centroid on a border
+    // belongs to the triangle below or to the right of it, so to one only.
     void cover_cells(const Corners& p) {
         auto [low_x, high_x] = std::minmax({p[0].x, p[1].x, p[2].x});
         auto [low_y, high_y] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -180,7 +188,8 @@ class Checker {
     bool is_on_rim(Point a, Point b) const {
         if (std::abs(a.x - b.x) > 1 || std::abs(a.y - b.y) > 1) return false;
         for (int64_t y = std::max<int64_t>(0, std::min(a.y, b.y) - 1); y <= std::min(std::min(a.y, b.y), raster_.height - 2); ++y)
-            for (int64_t x = std::max<int64_t>(0, std::min(a.x, b.x) - 1); x <= std::min(std::min(a.x, b.x), raster_.width - 2); ++x)
+            for (int64_t x = std::max<int64_t>(0, std::min(a.x, b.x) - 1); x <= std::min(std::min(a.x, b.x), raster_.width - 2);
+                 ++x)
                 for (int which = 0; which < 2; ++which) {
                     Corners corners = finest_triangle(x, y, which);
                     if (has_void(corners) && is_corner(corners, a) && is_corner(corners, b)) return true;
@@ -205,8 +214,9 @@ class Checker {
         steps_[index(a) * 4 + way] = int8_t(steps_[index(a) * 4 + way] + times);
     }
 
-    // With every triangle turned the same way, how often a place is covered is how often the boundary goes around it. So a boundary that is
-    // step for step that of the finest triangles wanted proves that each of them is covered exactly once, and nothing else at all.
+    // With every triangle turned the same way, how often a place is covered is how often the boundary goes around it. So a
+    // boundary that is step for step that of the finest triangles wanted proves that each of them is covered exactly once, and
+    // nothing else at all.
     void check_boundary() {
         for_finest([&](int64_t, int64_t, int, const Corners& corners) {
             if (has_void(corners)) return;
@@ -227,16 +237,19 @@ class Checker {
 
 }  // namespace
 
-Report check(const Mesh& mesh, const Raster& raster, double tolerance_m) { return Checker(mesh, raster, tolerance_m).run(); }
+Report check(const Mesh& mesh, const Raster& raster, double tolerance_m) {
+    return Checker(mesh, raster, tolerance_m).run();
+}
 
 std::string to_json(const Report& r) {
     std::ostringstream out;
-    out << "{\"sound\": " << (r.is_sound() ? "true" : "false") << ", \"triangles\": " << r.triangles << ", \"samples_covered\": " << r.samples_covered
-        << ", \"valid_samples_uncovered\": " << r.valid_samples_uncovered << ", \"greatest_deviation_m\": " << r.greatest_deviation_m
-        << ", \"misplaced_corners\": " << r.misplaced_corners << ", \"turned_triangles\": " << r.turned_triangles
-        << ", \"samples_beyond_tolerance\": " << r.samples_beyond_tolerance << ", \"voids_covered\": " << r.voids_covered
-        << ", \"wrongly_covered_cells\": " << r.wrongly_covered_cells << ", \"open_interior_edges\": " << r.open_interior_edges
-        << ", \"overused_edges\": " << r.overused_edges << ", \"wrong_boundary_steps\": " << r.wrong_boundary_steps << "}";
+    out << "{\"sound\": " << (r.is_sound() ? "true" : "false") << ", \"triangles\": " << r.triangles
+        << ", \"samples_covered\": " << r.samples_covered << ", \"valid_samples_uncovered\": " << r.valid_samples_uncovered
+        << ", \"greatest_deviation_m\": " << r.greatest_deviation_m << ", \"misplaced_corners\": " << r.misplaced_corners
+        << ", \"turned_triangles\": " << r.turned_triangles << ", \"samples_beyond_tolerance\": " << r.samples_beyond_tolerance
+        << ", \"voids_covered\": " << r.voids_covered << ", \"wrongly_covered_cells\": " << r.wrongly_covered_cells
+        << ", \"open_interior_edges\": " << r.open_interior_edges << ", \"overused_edges\": " << r.overused_edges
+        << ", \"wrong_boundary_steps\": " << r.wrong_boundary_steps << "}";
     return out.str();
 }
 

@@ -19,15 +19,16 @@ struct Raster {
 };
 
 struct Mesh {
-    std::vector<std::array<double, 3>> vertices;    // column, row, metres
-    std::vector<std::array<uint32_t, 3>> triangles; // each number is below vertices.size()
+    std::vector<std::array<double, 3>> vertices;     // column, row, metres
+    std::vector<std::array<uint32_t, 3>> triangles;  // each number is below vertices.size()
 };
 
-// A .hgt file (big-endian int16, -32768 = void) or whatever OpenImageIO reads. A stored value that equals `nodata` is a void; NaN always is one.
-// Throws std::runtime_error.
+// A .hgt file (big-endian int16, -32768 = void) or whatever OpenImageIO reads. A stored value that equals `nodata` is a void; NaN
+// always is one. Throws std::runtime_error.
 Raster read_raster(const std::string& path, const Window& window, double nodata);
 
-// A binary little-endian PLY: vertices with x, y, z as float or double, faces as lists of three numbers. Throws std::runtime_error.
+// A binary little-endian PLY: vertices with x, y, z as float or double, faces as lists of three numbers. Throws
+// std::runtime_error.
 Mesh read_ply(const std::string& path);
 
 }  // namespace check_cut

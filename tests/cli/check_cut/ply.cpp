@@ -17,7 +17,8 @@ struct Header {
 
 Header read_header(const std::string& bytes) {
     size_t end = bytes.find("end_header\n");
-    if (bytes.rfind("ply\nformat binary_little_endian 1.0\n", 0) != 0 || end == std::string::npos) throw std::runtime_error("is not a binary PLY");
+    if (bytes.rfind("ply\nformat binary_little_endian 1.0\n", 0) != 0 || end == std::string::npos)
+        throw std::runtime_error("is not a binary PLY");
     Header header;
     header.data_begin = end + 11;
     std::istringstream lines(bytes.substr(0, end));
@@ -26,9 +27,11 @@ Header read_header(const std::string& bytes) {
         std::istringstream words(line);
         std::string first, second, third, fourth;
         words >> first >> second >> third >> fourth;
-        if (first == "element") element = second, (element == "vertex" ? header.vertex_count : header.face_count) = std::stoul(third);
+        if (first == "element")
+            element = second, (element == "vertex" ? header.vertex_count : header.face_count) = std::stoul(third);
         if (first == "property" && element == "vertex") header.properties.emplace_back(second, third);
-        if (first == "property" && element == "face" && (second != "list" || third != "uchar" || (fourth != "int" && fourth != "uint")))
+        if (first == "property" && element == "face" &&
+            (second != "list" || third != "uchar" || (fourth != "int" && fourth != "uint")))
             throw std::runtime_error("its faces are not lists of int with a uchar before");
     }
     return header;
