@@ -26,6 +26,7 @@ ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const
     planes_[4] = forward_;
     plane_offsets_[4] = near_m_;
 
+    axis_rise_ = std::abs(axes.forward.z);
     double corner = view::corner_secant(camera);
     corner_squared_ = corner * corner, corner_cosine_ = 1 / corner;
     focal_squared_ = focal * focal, tolerance_squared_ = error_px * error_px;

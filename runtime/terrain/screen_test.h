@@ -89,21 +89,25 @@ class ScreenTest {
         return true;
     }
 
-    // The bound of view/pixel_error.h, squared so as to need no root; raises predicted_squared where it is kept.
+    // view::error_px_bound_vertical over the box's part in the frame, squared so as to need no root. Raises predicted_squared
+    // where it is kept.
     bool keeps_tolerance(const Box& box, double error_m, double tolerance_squared, double& predicted_squared) const {
         double depth = std::max(forward_.least(box), near_m_);
         auto outside = [](Interval i) { return std::max(std::max(i.low, -i.high), 0.0); };
         double dx = outside(box.x), dy = outside(box.y), dz = outside(box.z), distance_squared = dx * dx + dy * dy + dz * dz;
         if (distance_squared > depth * depth * corner_squared_)
             depth = std::max(depth, std::sqrt(distance_squared) * corner_cosine_);
-        if (depth <= error_m) return false;
+        double depth_after = depth - error_m * axis_rise_;
+        if (depth_after <= 0) return false;
 
         auto widest = [&](const Direction& d) { return std::max(d.greatest(box), -d.least(box)); };
-        double side_x = widest(right_), side_y = widest(up_);
+        auto furthest = [](Interval i) { return std::max(i.high, -i.low); };
+        double side_x = widest(right_), side_y = widest(up_), far_x = furthest(box.x), far_y = furthest(box.y);
         double depth_squared = depth * depth;
-        double secant_squared = std::min(corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y);
-        double numerator = focal_squared_ * error_m * error_m * secant_squared;  // bound^2 = numerator / denominator
-        double denominator = depth_squared * (depth - error_m) * (depth - error_m);
+        double lever_squared = std::min(
+            {corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y, far_x * far_x + far_y * far_y});
+        double numerator = focal_squared_ * error_m * error_m * lever_squared;  // bound^2 = numerator / denominator
+        double denominator = depth_squared * depth_after * depth_after;
         if (numerator > tolerance_squared * denominator) return false;
         if (numerator > predicted_squared * denominator) predicted_squared = numerator / denominator;
         return true;
@@ -118,7 +122,7 @@ class ScreenTest {
     Direction planes_[5];
     double plane_offsets_[5] = {};
     Direction right_, up_, forward_;
-    double near_m_, corner_squared_, corner_cosine_, focal_squared_, tolerance_squared_;
+    double near_m_, axis_rise_, corner_squared_, corner_cosine_, focal_squared_, tolerance_squared_;
     double error_m_[256];
     bool finest_error_is_zero_;
 };
