@@ -33,7 +33,7 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     command::Progress progress(common, "drawing");
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
         double share = frame_count == 1 ? 0 : double(frame) / (frame_count - 1);
-        records.push_back(scene.draw(*target, camera_at(keys, share), plan.options.error_px, plan.draw));
+        records.push_back(scene.draw(*target, camera_at(keys, share), plan.options.error_px, plan.options.morph, plan.draw));
         if (Result<void> written = write_picture(plan, *target, frame, frame + 1 == frame_count); !written) return written;
         progress.set(double(frame + 1) / frame_count);
     }

@@ -20,6 +20,9 @@ Result<void> check_numbers(const Options& options) {
     if (!(options.error_px > 0 && options.error_px <= kMostError_px)) {
         return bad_command("--error-px {}: a number of pixels above 0 and up to {} is wanted", options.error_px, kMostError_px);
     }
+    if (!(options.morph >= 0 && options.morph <= 10)) {
+        return bad_command("--morph {}: a number from 0 (pop) to 10 is wanted", options.morph);
+    }
     if (!(options.haze >= 0 && options.haze <= 10)) {
         return bad_command("--haze {}: a number from 0 (clear) to 10 is wanted; 1 is a fair day", options.haze);
     }
@@ -70,6 +73,10 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--frames", options.frames, "Frames to draw; then end")->type_name("N");
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
+    app.add_option(
+           "--morph", options.morph,
+           "Vertices glide to their place as their error grows from 1/(1 + this) of the error asked to all of it; 0 = they pop")
+        ->capture_default_str();
     app.add_option("--error-px", options.error_px, "Nothing in the picture is displaced by more than this")
         ->type_name("PIXELS")
         ->capture_default_str();

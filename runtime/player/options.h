@@ -22,6 +22,7 @@ struct Options {
     std::string image;                 // where pictures go; empty = nowhere
     std::string report;                // where the report goes; empty = nowhere
     double error_px = 1;
+    double morph = 0.5;  // 0 = vertices pop; as Refiner::cut_by_pixels
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;

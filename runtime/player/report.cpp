@@ -64,6 +64,7 @@ std::string report_json(const Plan& plan, const gl::Renderer& renderer, const st
         {"height_px", plan.height_px},
         {"samples", plan.options.samples},
         {"error_px", plan.options.error_px},
+        {"morph", plan.options.morph},
         {"summary", summaries(frames)},
         {"frames", Json::array()},
     };

@@ -24,12 +24,12 @@ Result<void> Scene::upload() {
     return {};
 }
 
-FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, double error_px,
+FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, double error_px, double morph,
                         const terrain::DrawOptions& options) {
     assert(drawing_.has_value());
     FrameRecord record;
     gl::Timer refining;
-    refiner_->cut_by_pixels(camera, error_px, cut_);
+    refiner_->cut_by_pixels(camera, error_px, cut_, morph);
     record.refine_ms = refining.elapsed_ms();
 
     gl::Timer drawing;

@@ -34,7 +34,8 @@ class Scene {
     const terrain::Terrain& terrain() const { return *terrain_; }
     const terrain::Refiner& refiner() const { return *refiner_; }
 
-    FrameRecord draw(const gl::Target& target, const view::Camera& camera, double error_px, const terrain::DrawOptions& options);
+    FrameRecord draw(const gl::Target& target, const view::Camera& camera, double error_px, double morph,
+                     const terrain::DrawOptions& options);
 
   private:
     std::unique_ptr<terrain::Terrain> terrain_;

@@ -207,7 +207,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         }
         flight.camera.width_px = target->width_px();
         flight.camera.height_px = target->height_px();
-        FrameRecord record = scene.draw(*target, flight.camera, flight.error_px, flight.draw);
+        FrameRecord record = scene.draw(*target, flight.camera, flight.error_px, plan.options.morph, flight.draw);
         show(window, *target, flight, record, renderer, overlay);
         if (events.take_picture) {
             if (Result<void> taken = take_picture(*target, common, flight); !taken) return taken;
