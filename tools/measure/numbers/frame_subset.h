@@ -1,0 +1,14 @@
+// On which frames FLIP is taken.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace overlook::measure {
+
+// Every tenth of frame_count frames from the first, and three round each event: the frame, the one before and the one after.
+// events: frames of the events of *all* methods of a run, in any order; those past the end do not count. Ascending, each once.
+std::vector<uint32_t> flip_frames(uint32_t frame_count, std::span<const uint32_t> events);
+
+}  // namespace overlook::measure
