@@ -35,6 +35,7 @@ Json frame_json(const FrameRecord& frame) {
             {"refine_ms", frame.refine_ms},
             {"draw_ms", frame.draw_ms},
             {"uploaded_bytes", frame.uploaded_bytes},
+            {"asked_error_px", frame.asked_error_px},
             {"predicted_error_px", frame.predicted_error_px}};
 }
 

@@ -16,7 +16,7 @@ constexpr double kLeastLesson = 0.01;  // changes of the error below 1 % teach n
 
 void ErrorController::set_budget(const ErrorBudget& budget) {
     budget_ = budget;
-    error_px_ = std::max(error_px_, budget.least_error_px);
+    error_px_ = budget.cost > 0 ? std::max(error_px_, budget.least_error_px) : budget.least_error_px;
     latest_count_ = 0;
 }
 
