@@ -52,13 +52,13 @@ class ScreenTest {
         if (!must_split) {
             Bound bound = bound_of(box, error_m_[code]);
             if (bound.is_within(full_squared_)) {
-                raise(predicted_squared, bound);
+                keep_greatest(predicted_squared, bound);
                 if (bound.is_within(enter_squared_)) return {Verdict::keep};
                 share = (std::sqrt(bound.numerator / bound.denominator) - enter_px_) / (full_px_ - enter_px_);
             }
         }
         // What an edge of level 0 splits into is the finest there is, whatever was asked.
-        if (level == 0 && !is_square && !finest_error_is_zero_) raise(predicted_squared, bound_of(box, error_m_[0]));
+        if (level == 0 && !is_square && !finest_error_is_zero_) keep_greatest(predicted_squared, bound_of(box, error_m_[0]));
         return {Verdict::split, std::clamp(share, 0.0, 1.0)};
     }
 
@@ -127,7 +127,7 @@ class ScreenTest {
             {corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y, far_x * far_x + far_y * far_y});
         return {focal_squared_ * error_m * error_m * lever_squared, depth_squared * depth_after * depth_after};
     }
-    static void raise(double& predicted_squared, const Bound& bound) {
+    static void keep_greatest(double& predicted_squared, const Bound& bound) {
         if (bound.numerator > predicted_squared * bound.denominator) predicted_squared = bound.numerator / bound.denominator;
     }
 
