@@ -23,7 +23,7 @@ struct HolePixels {
     size_t background = 0, other_thing = 0, deeper = 0;  // what the test shows instead
     size_t thing_px = 0;                                 // pixels of the thing in the reference
     size_t lost_px = 0;                                  // of those, where the test does not show the thing, near borders too
-    std::vector<uint8_t> mask;                           // [height, width], 1 = hole
+    std::vector<uint8_t> mask;  // [height, width], 0 = none, 1 = background, 2 = another thing, 3 = deeper
 };
 
 // Pixels that are `thing` (not kBackground) in the reference, farther than 1.5 px from a pixel of it that touches anything else,

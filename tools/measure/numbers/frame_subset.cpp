@@ -1,0 +1,20 @@
+#include "tools/measure/numbers/frame_subset.h"
+
+namespace overlook::measure {
+
+std::vector<uint32_t> flip_frames(uint32_t frame_count, std::span<const uint32_t> events) {
+    std::vector<bool> chosen(frame_count);
+    for (uint64_t frame = 0; frame < frame_count; frame += 10) chosen[frame] = true;
+    for (uint32_t event : events) {
+        if (event >= frame_count) continue;
+        chosen[event] = true;
+        if (event > 0) chosen[event - 1] = true;
+        if (event + 1 < frame_count) chosen[event + 1] = true;
+    }
+    std::vector<uint32_t> frames;
+    for (uint32_t frame = 0; frame < frame_count; ++frame)
+        if (chosen[frame]) frames.push_back(frame);
+    return frames;
+}
+
+}  // namespace overlook::measure
