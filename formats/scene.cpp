@@ -1,0 +1,180 @@
+#include "formats/scene.h"
+
+#include <algorithm>
+
+namespace overlook::scene {
+namespace {
+
+using json::Form;
+using json::Kind;
+using json::Member;
+using json::Node;
+
+constexpr Member kSceneMembers[] = {
+    {"version", Kind::number, true, 1, 1e6},
+    {"layers", Kind::array, true, 1, 64},
+    {"light", Kind::object},
+    {"camera", Kind::object},
+    {"error_px", Kind::number, false, 0.001, 10000},
+};
+constexpr Member kLayerMembers[] = {
+    {"asset", Kind::text, true},
+    {"transform", Kind::object},
+    {"method", Kind::text, true},
+    {"settings", Kind::object},
+};
+constexpr Member kTransformMembers[] = {
+    {"translation_m", Kind::array, false, -1e9, 1e9, 3},
+    {"rotation_z_deg", Kind::number, false, -360, 360},
+    {"scale", Kind::number, false, 1e-6, 1e6},
+};
+constexpr Member kLightMembers[] = {{"haze", Kind::number, false, 0, 10}};
+constexpr Member kCameraMembers[] = {
+    {"fov_y_deg", Kind::number, false, 1, 170},
+    {"near_m", Kind::number, false, 0.001, 1000},
+};
+constexpr ObjectForm kForms[] = {
+    {"", kSceneMembers},
+    {"/$defs/layer", kLayerMembers},
+    {"/$defs/transform", kTransformMembers},
+    {"/$defs/light", kLightMembers},
+    {"/$defs/camera", kCameraMembers},
+};
+
+bool is_variant(std::string_view text) {
+    return !text.empty() && text.size() <= 64 &&
+           text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string_view::npos;
+}
+
+void read_method(Form& form, const Node& node, Layer& layer) {
+    if (node.value == nullptr) return;
+    const std::string& text = node.value->text;
+    size_t colon = text.find(':');
+    layer.method = text.substr(0, colon);
+    if (std::find(kMethods.begin(), kMethods.end(), layer.method) == kMethods.end()) {
+        std::string shown = layer.method.substr(0, 64);
+        return form.fail(node, fmt::format("{} is no method; did you mean {}?", shown, json::nearest(shown, kMethods)));
+    }
+    if (colon == std::string::npos) return;
+    layer.variant = text.substr(colon + 1);
+    if (!is_variant(layer.variant)) form.fail(node, "a variant is lower-case letters, digits and hyphens after the colon");
+}
+
+void read_asset(Form& form, const Node& node, Layer& layer) {
+    if (node.value == nullptr) return;
+    layer.asset = node.value->text;
+    if (layer.asset.empty()) return form.fail(node, "is empty; name a baked file");
+    if (layer.asset.front() == '/') return form.fail(node, "begins with /; name it relative to the scene's file");
+    if (layer.asset.find('\0') != std::string::npos) form.fail(node, "holds a zero byte");
+}
+
+void read_settings(Form& form, const Node& node, Layer& layer) {
+    std::vector<Node> items = form.items(node);
+    for (size_t i = 0; i < items.size(); ++i) {
+        const json::Value& value = *items[i].value;
+        Setting setting;
+        if (value.kind == Kind::boolean)
+            setting = value.boolean;
+        else if (value.kind == Kind::number)
+            setting = value.number;
+        else if (value.kind == Kind::text)
+            setting = value.text;
+        else
+            return form.fail(items[i], "a setting is a number, text, true or false");
+        layer.settings.emplace_back(node.value->names[i], std::move(setting));
+    }
+}
+
+Transform read_transform(Form& form, const Node& node) {
+    Transform transform;
+    form.expect(node, kTransformMembers);
+    std::vector<Node> translation = form.items(form.member(node, "translation_m"));
+    if (!form.is_right()) return transform;
+    for (size_t i = 0; i < translation.size(); ++i) transform.translation_m[i] = translation[i].value->number;
+    transform.rotation_z_deg = form.number(node, "rotation_z_deg", transform.rotation_z_deg);
+    transform.scale = form.number(node, "scale", transform.scale);
+    return transform;
+}
+
+Layer read_layer(Form& form, const Node& node) {
+    Layer layer;
+    form.expect(node, kLayerMembers);
+    if (!form.is_right()) return layer;
+    read_asset(form, form.member(node, "asset"), layer);
+    read_method(form, form.member(node, "method"), layer);
+    layer.transform = read_transform(form, form.member(node, "transform"));
+    read_settings(form, form.member(node, "settings"), layer);
+    return layer;
+}
+
+std::string text_of(const Setting& setting) {
+    if (const bool* truth = std::get_if<bool>(&setting)) return *truth ? "true" : "false";
+    if (const double* number = std::get_if<double>(&setting)) return fmt::format("{}", *number);
+    return json::quoted(std::get<std::string>(setting));
+}
+
+std::string text_of(const Layer& layer) {
+    const Transform& transform = layer.transform;
+    std::string text = fmt::format("    {{\n      \"asset\": {},\n", json::quoted(layer.asset));
+    text += fmt::format("      \"transform\": {{\"translation_m\": [{}, {}, {}], \"rotation_z_deg\": {}, \"scale\": {}}},\n",
+                        transform.translation_m[0], transform.translation_m[1], transform.translation_m[2],
+                        transform.rotation_z_deg, transform.scale);
+    text += fmt::format("      \"method\": {},\n      \"settings\": {{",
+                        json::quoted(layer.variant.empty() ? layer.method : layer.method + ":" + layer.variant));
+    for (size_t i = 0; i < layer.settings.size(); ++i) {
+        const auto& [name, value] = layer.settings[i];
+        text += fmt::format("{}{}: {}", i == 0 ? "" : ", ", json::quoted(name), text_of(value));
+    }
+    return text + "}\n    }";
+}
+
+Result<Scene> scene_from(const json::Value& root, const std::string& name) {
+    Form form(root, name);
+    Scene scene;
+    json::check_version(form, kSceneVersion);
+    form.expect(form.root(), kSceneMembers);
+    for (const Node& layer : form.items(form.member(form.root(), "layers"))) scene.layers.push_back(read_layer(form, layer));
+
+    Node light = form.member(form.root(), "light"), camera = form.member(form.root(), "camera");
+    form.expect(light, kLightMembers);
+    form.expect(camera, kCameraMembers);
+    scene.light.haze = form.number(light, "haze", scene.light.haze);
+    scene.camera.fov_y_deg = form.number(camera, "fov_y_deg", scene.camera.fov_y_deg);
+    if (form.member(camera, "near_m").value != nullptr) scene.camera.near_m = form.number(camera, "near_m", 0);
+    scene.error_px = form.number(form.root(), "error_px", scene.error_px);
+    return form.finish(std::move(scene));
+}
+
+}  // namespace
+
+std::span<const ObjectForm> scene_forms() {
+    return kForms;
+}
+
+Result<Scene> parse_scene(std::string_view text, const std::string& name) {
+    Result<json::Value> root = json::parse(text, name);
+    if (!root) return tl::unexpected(root.error());
+    return scene_from(*root, name);
+}
+
+Result<Scene> read_scene(const std::string& path) {
+    Result<json::Value> root = json::read(path);
+    if (!root) return tl::unexpected(root.error());
+    return scene_from(*root, path);
+}
+
+std::string asset_path(const std::string& scene_path, const Layer& layer) {
+    size_t slash = scene_path.rfind('/');
+    return slash == std::string::npos ? layer.asset : scene_path.substr(0, slash + 1) + layer.asset;
+}
+
+std::string json_from_scene(const Scene& scene) {
+    std::string text = fmt::format("{{\n  \"version\": {},\n  \"layers\": [\n", kSceneVersion);
+    for (size_t i = 0; i < scene.layers.size(); ++i) text += (i == 0 ? "" : ",\n") + text_of(scene.layers[i]);
+    text += fmt::format("\n  ],\n  \"light\": {{\"haze\": {}}},\n  \"camera\": {{\"fov_y_deg\": {}", scene.light.haze,
+                        scene.camera.fov_y_deg);
+    if (scene.camera.near_m) text += fmt::format(", \"near_m\": {}", *scene.camera.near_m);
+    return text + fmt::format("}},\n  \"error_px\": {}\n}}\n", scene.error_px);
+}
+
+}  // namespace overlook::scene
