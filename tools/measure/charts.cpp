@@ -58,8 +58,8 @@ std::string style_of(const CourseResult& course, size_t run, double width) {
 // runs.csv's columns: 1 run, 2 method, 3 is_floor, 4 e, 7 frame_ms_p50, 9 triangles_p50, 10 resident bytes.
 Chart front(const CourseResult& course, const std::string& name, const std::string& cost, int column) {
     Chart chart{name, "Cost of a frame against its error", kHead};
-    chart.script += fmt::format("set xlabel {}\nset ylabel 'E: LDR-FLIP, 99th percentile'\nset logscale x\nset yrange [0:*]\n",
-                                quoted(cost));
+    chart.script +=
+        fmt::format("set xlabel {}\nset ylabel 'E: LDR-FLIP, 99th percentile'\nset logscale x\nset yrange [0:*]\n", quoted(cost));
     chart.script += "set format x '%.0s%c'\nset offsets graph 0.08, graph 0.08, graph 0.12, 0\n";
     chart.script += "size_of(bytes) = 0.35 * sqrt(bytes / 1e6) + 0.4\n";
     std::string lines, dots;
@@ -69,10 +69,12 @@ Chart front(const CourseResult& course, const std::string& name, const std::stri
         std::string of = fmt::format("(strcol(2) eq {} ? ${} : NaN)", quoted(family), column);
         lines += fmt::format("'../runs.csv' skip 1 using {}:4 with lines lc rgb \"{}\" lw 2 title {}, \\\n", of, colour,
                              quoted(family));
-        dots += fmt::format("'../runs.csv' skip 1 using {}:4:(size_of($10)) with points pt {} ps variable lc rgb \"{}\" notitle, \\\n",
-                            of, kPoints[place % kPoints.size()], colour);
         dots += fmt::format(
-            "'../runs.csv' skip 1 using {}:4:(swept(strcol(1))) with labels noenhanced font ',12' offset 0,1.1 tc rgb \"#333333\" "
+            "'../runs.csv' skip 1 using {}:4:(size_of($10)) with points pt {} ps variable lc rgb \"{}\" notitle, \\\n", of,
+            kPoints[place % kPoints.size()], colour);
+        dots += fmt::format(
+            "'../runs.csv' skip 1 using {}:4:(swept(strcol(1))) with labels noenhanced font ',12' offset 0,1.1 tc rgb "
+            "\"#333333\" "
             "notitle, \\\n",
             of);
         ++place;
@@ -102,13 +104,14 @@ std::string lines_over_flight(const CourseResult& course, std::string_view name,
     std::string plot = "plot ";
     for (size_t i = 0; i < course.runs.size(); ++i) {
         const std::string& label = course.runs[i].label;
-        plot += fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? $2 : NaN):{} with lines {} {}", i == 0 ? "" : ", \\\n",
-                            quoted(label), column_of(name), style_of(course, i, 1.8),
+        plot += fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? $2 : NaN):{} with lines {} {}",
+                            i == 0 ? "" : ", \\\n", quoted(label), column_of(name), style_of(course, i, 1.8),
                             has_title ? "title " + quoted(label) : "notitle");
     }
     // Events as ticks at the foot.
-    plot += fmt::format(", \\\n'../frames.csv' skip 1 using (${} > 0 ? $2 : NaN):(0) with points pt 2 lc rgb \"#000000\" notitle\n",
-                        column_of("events"));
+    plot +=
+        fmt::format(", \\\n'../frames.csv' skip 1 using (${} > 0 ? $2 : NaN):(0) with points pt 2 lc rgb \"#000000\" notitle\n",
+                    column_of("events"));
     return plot;
 }
 
@@ -125,7 +128,8 @@ Chart over_flight(const CourseResult& course) {
         return chart;
     }
     chart.script += "set multiplot\nset lmargin is_narrow ? 9 : 11\nset rmargin 2\n";
-    chart.script += "set origin 0,0.66\nset size 1,0.34\nset bmargin 1.5\nset ylabel 'W, luma'\nset yrange [0:*]\nset xtics format ''\n";
+    chart.script +=
+        "set origin 0,0.66\nset size 1,0.34\nset bmargin 1.5\nset ylabel 'W, luma'\nset yrange [0:*]\nset xtics format ''\n";
     chart.script += "unset key\n" + lines_over_flight(course, "w_luma", false);
     chart.script +=
         "set origin 0,0\nset size 1,0.66\nunset bmargin\nset ylabel 'frame time, ms'\nset autoscale y\nset logscale y\n"
@@ -137,13 +141,14 @@ Chart over_flight(const CourseResult& course) {
 
 Chart distribution(const CourseResult& course) {
     Chart chart{"distribution", "How the errors are spread", kHead};
-    chart.script += "set xlabel 'E of a frame: LDR-FLIP, 99th percentile over its pixels'\nset ylabel 'share of frames at most so'\n";
+    chart.script +=
+        "set xlabel 'E of a frame: LDR-FLIP, 99th percentile over its pixels'\nset ylabel 'share of frames at most so'\n";
     chart.script += "set yrange [0:1.02]\nset format y '%.1f'\nplot ";
     for (size_t i = 0; i < course.runs.size(); ++i) {
         const std::string& label = course.runs[i].label;
-        chart.script += fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):(1) smooth cnorm with steps {} title {}",
-                                    i == 0 ? "" : ", \\\n", quoted(label), column_of("e_p99_flip"), style_of(course, i, 2),
-                                    quoted(label));
+        chart.script +=
+            fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):(1) smooth cnorm with steps {} title {}",
+                        i == 0 ? "" : ", \\\n", quoted(label), column_of("e_p99_flip"), style_of(course, i, 2), quoted(label));
     }
     chart.script += "\n";
     return chart;
@@ -151,15 +156,16 @@ Chart distribution(const CourseResult& course) {
 
 Chart promise(const CourseResult& course) {
     Chart chart{"promise", "Promised against measured pixels", kHead};
-    chart.script += "set xlabel 'promised of the frame: predicted error, pixels'\nset ylabel 'measured: outlines, greatest, pixels'\n";
+    chart.script +=
+        "set xlabel 'promised of the frame: predicted error, pixels'\nset ylabel 'measured: outlines, greatest, pixels'\n";
     chart.script += "set xrange [0:*]\nset yrange [0:*]\nset offsets graph 0.03, graph 0.05, graph 0.05, 0\n";
     chart.script += "plot x + 1 with lines lc rgb \"#999999\" dt 2 title 'promise, and one pixel of the raster'";
     for (size_t i = 0; i < course.runs.size(); ++i) {
         if (is_floor(course.runs[i].spec)) continue;
         const std::string& label = course.runs[i].label;
-        chart.script += fmt::format(", \\\n'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):{} with points pt 7 ps 0.6 {} title {}",
-                                    quoted(label), column_of("predicted_error_px"), column_of("s_max_px"), style_of(course, i, 1),
-                                    quoted(label));
+        chart.script += fmt::format(
+            ", \\\n'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):{} with points pt 7 ps 0.6 {} title {}",
+            quoted(label), column_of("predicted_error_px"), column_of("s_max_px"), style_of(course, i, 1), quoted(label));
     }
     chart.script += "\n";
     return chart;

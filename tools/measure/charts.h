@@ -10,7 +10,7 @@
 namespace overlook::measure {
 
 struct Chart {
-    std::string name;   // of its files: charts/NAME.gp, NAME.svg, NAME-narrow.svg, NAME.png
+    std::string name;  // of its files: charts/NAME.gp, NAME.svg, NAME-narrow.svg, NAME.png
     std::string title;
     std::string script;  // gnuplot's, with relative paths: run it in charts/ to draw it again
 };
@@ -19,8 +19,8 @@ struct Chart {
 // flight, the distribution of errors, promised against measured pixels. Without pictures (wall clock) only the times.
 std::vector<Chart> charts_of(const CourseResult& course);
 
-// Writes the scripts into FOLDER/charts and has gnuplot draw each as SVG for wide and for narrow screens and as PNG. Returns false
-// if gnuplot is not installed; the scripts are there then. Fails with Exit::cannot_write and Exit::impossible:
+// Writes the scripts into FOLDER/charts and has gnuplot draw each as SVG for wide and for narrow screens and as PNG. Returns
+// false if gnuplot is not installed; the scripts are there then. Fails with Exit::cannot_write and Exit::impossible:
 // "out/charts/front_ms.gp: gnuplot cannot draw it (status 1); run gnuplot on it to see why".
 Result<bool> draw_charts(const std::vector<Chart>& charts, const std::string& folder);
 

@@ -7,8 +7,8 @@
 namespace overlook::measure {
 namespace {
 
-constexpr double kDarkest = 0.03, kLightest = 0.97;             // Oklab's lightness
-constexpr double kFirstHue_deg = 285, kLastHue_deg = 465;       // violet, by red, to yellow
+constexpr double kDarkest = 0.03, kLightest = 0.97;        // Oklab's lightness
+constexpr double kFirstHue_deg = 285, kLastHue_deg = 465;  // violet, by red, to yellow
 constexpr double kMostChroma = 0.2;
 
 using Colour = std::array<double, 3>;

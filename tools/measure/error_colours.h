@@ -11,8 +11,8 @@
 namespace overlook::measure {
 
 // The colour of an error of 0..1 (what lies outside is shown as the nearer end): from black by violet and red to pale yellow, the
-// lightness growing evenly, so that it reads in grey as well and to the colour-blind. Computed in Oklab (Ottosson 2020), its chroma
-// lowered where sRGB has no such colour.
+// lightness growing evenly, so that it reads in grey as well and to the colour-blind. Computed in Oklab (Ottosson 2020), its
+// chroma lowered where sRGB has no such colour.
 std::array<uint8_t, 3> error_colour(double error);
 
 // map: [height, width], as measure keeps it.

@@ -69,7 +69,8 @@ Result<bool> draw_charts(const std::vector<Chart>& charts, const std::string& fo
     std::filesystem::create_directories(charts_folder, problem);
     if (problem) return cannot_write("{}: cannot make the folder: {}", charts_folder, problem.message());
     for (const Chart& chart : charts) {
-        if (Result<void> written = write_file(charts_folder + "/" + chart.name + ".gp", std::string_view(chart.script)); !written) {
+        if (Result<void> written = write_file(charts_folder + "/" + chart.name + ".gp", std::string_view(chart.script));
+            !written) {
             return tl::unexpected(written.error());
         }
     }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "formats/mapped_file.h"
+#include "formats/scene.h"
+#include "runtime/view/flight.h"
 
 namespace overlook::measure {
 namespace {
@@ -18,41 +19,48 @@ bool parse_side(std::string_view text, uint32_t& side_px) {
     return problem == std::errc() && after == text.data() + text.size() && side_px >= 1 && side_px <= kMostPixelsASide;
 }
 
-// Evenly between two keys, the heading the shorter way round.
-view::Camera between(const view::Camera& a, const view::Camera& b, double t) {
-    view::Camera camera = a;
-    camera.position_m = a.position_m + t * (b.position_m - a.position_m);
-    camera.heading_deg = a.heading_deg + t * std::remainder(b.heading_deg - a.heading_deg, 360.0);
-    camera.pitch_deg = a.pitch_deg + t * (b.pitch_deg - a.pitch_deg);
-    camera.fov_y_deg = a.fov_y_deg + t * (b.fov_y_deg - a.fov_y_deg);
-    return camera;
-}
-
-Result<Route> route_by_keys(const Options& options) {
-    std::vector<view::Camera> keys;
+// The keys of the command line, equally far apart, with everything changing evenly between them.
+Result<scene::Flight> flight_by_keys(const Options& options, Route& route) {
+    scene::Flight flight;
+    flight.interpolation = scene::Interpolation::linear;
     std::string all;
+    uint32_t frames = options.frames != 0 ? options.frames : kFramesByKeys;
+    double between_keys_s = options.cameras.size() > 1 ? flight.step_s * (frames - 1) / double(options.cameras.size() - 1) : 0;
     for (const std::string& text : options.cameras) {
         Result<view::Camera> key = view::parse_camera(text);
         if (!key) return tl::unexpected(key.error());
-        keys.push_back(*key);
+        double time_s = between_keys_s * double(flight.keys.size());
+        const glm::dvec3& at_m = key->position_m;
+        flight.keys.push_back({time_s, {at_m.x, at_m.y, at_m.z}, key->heading_deg, key->pitch_deg, key->fov_y_deg});
         all += text + "\n";
     }
-    Route route;
     route.name = "keys of the command line";
     route.content_hash = content_hash(std::as_bytes(std::span(all)));
-    uint32_t count = options.frames != 0 ? options.frames : kFramesByKeys;
-    for (uint32_t frame = 0; frame < count; ++frame) {
-        double place = count == 1 ? 0 : double(frame) / (count - 1) * double(keys.size() - 1);
-        size_t first = std::min(size_t(place), keys.size() - 1), second = std::min(first + 1, keys.size() - 1);
-        route.cameras.push_back(between(keys[first], keys[second], place - double(first)));
-    }
-    return route;
+    route.step_s = flight.step_s;
+    return flight;
+}
+
+Result<scene::Flight> flight_from_file(const Options& options, Route& route) {
+    Result<scene::Flight> flight = scene::read_flight(options.flight);
+    Result<MappedFile> file = MappedFile::open(options.flight);
+    if (!flight) return flight;
+    if (!file) return tl::unexpected(file.error());
+    route.name = options.flight.substr(options.flight.rfind('/') + 1);
+    route.content_hash = content_hash(file->bytes());
+    route.step_s = flight->step_s;
+    // Fewer or more frames than the flight has are spread over all of it.
+    double length_s = flight->keys.back().time_s;
+    if (options.frames > 1) route.step_s = length_s / (options.frames - 1);
+    return flight;
 }
 
 }  // namespace
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("scene", options.scene, "What is flown over: a baked terrain")->required()->type_name("SCENE");
+    app.add_option("scene", options.scene, "What is flown over: a scene (.json), or a baked terrain by itself (.ovl)")
+        ->required()
+        ->type_name("SCENE");
+    app.add_option("--flight", options.flight, "The flight")->type_name("FLIGHT.json");
     app.add_option("--camera", options.cameras,
                    "x,y,z,heading,pitch[,fov] in metres and degrees; several are flown through evenly, in place of a flight")
         ->type_name("X,Y,Z,H,P")
@@ -69,7 +77,9 @@ void add_options(CLI::App& app, Options& options) {
         ->type_name("SWEEP")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--frames", options.frames, "Frames to measure, spread over the whole flight")->type_name("N");
+    app.add_option("--frames", options.frames,
+                   "Frames to measure, spread over the whole flight; default as many as it has, 600 between keys")
+        ->type_name("N");
     app.add_flag("--wall-clock", options.wall_clock, "Fly by the wall clock: frame times and counters only");
     app.add_option("--out", options.out, "Folder for the tables, charts and the page; made if it is not there")
         ->type_name("DIR")
@@ -89,13 +99,22 @@ Result<Route> route_from(const Options& options, const World& world) {
     uint32_t width_px = 0, height_px = 0;
     if (Result<void> size = parse_size(options.size, width_px, height_px); !size) return tl::unexpected(size.error());
     if (options.frames > kMostFrames) return bad_command("--frames {}: at most {} are wanted", options.frames, kMostFrames);
-    if (options.cameras.empty()) return bad_command("a flight is wanted: --camera x,y,z,heading,pitch, twice or more");
-    Result<Route> route = route_by_keys(options);
-    if (!route) return route;
-    for (view::Camera& camera : route->cameras) {
-        camera.width_px = width_px;
-        camera.height_px = height_px;
-        camera.near_m = world.near_m;
+    if (options.flight.empty() == options.cameras.empty()) {
+        return bad_command("either --flight FLIGHT.json or --camera x,y,z,heading,pitch (twice or more) is wanted");
+    }
+    Route route;
+    Result<scene::Flight> flight = options.flight.empty() ? flight_by_keys(options, route) : flight_from_file(options, route);
+    if (!flight) return tl::unexpected(flight.error());
+    uint32_t count = options.frames != 0 ? options.frames : options.flight.empty() ? kFramesByKeys : scene::frame_count(*flight);
+    if (count > kMostFrames) {
+        return bad_command("{} has {} frames; give --frames, at most {}", options.flight, count, kMostFrames);
+    }
+    view::Camera base = world.base;
+    base.width_px = width_px;
+    base.height_px = height_px;
+    for (uint32_t frame = 0; frame < count; ++frame) {
+        view::Camera camera = view::camera_at(*flight, frame * route.step_s, base);
+        route.cameras.push_back(view::camera_into(world.transform, camera));
     }
     return route;
 }

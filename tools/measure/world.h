@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/scene.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
 
@@ -19,10 +20,14 @@ struct World {
     std::optional<terrain::Drawing> drawing;
     terrain::DrawOptions look;    // the same for every method and the reference
     uint64_t resident_bytes = 0;  // on the card without what changes from frame to frame
-    double near_m = 0.5;
+    scene::Transform transform;   // from the terrain's own frame into the scene's
+    view::Camera base;            // what a flight does not say: near plane, field of view
 };
 
-// Reads a baked terrain (.ovl). Needs no OpenGL. Fails with Exit::bad_input.
+// Reads a scene (.json) or a baked terrain by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as scene::read_scene
+// and terrain::read; and with Exit::impossible:
+//   "a.scene.json: has 2 layers; measure draws scenes of one terrain"
+//   "a.scene.json: /layers/0/method: caveclod cannot be measured yet; measure draws scenes of one terrain"
 Result<World> read_world(const std::string& path);
 
 // Puts it on the graphics card, once; needs a current context. Fails with Exit::impossible.
