@@ -1,7 +1,6 @@
 #include "runtime/player/flight.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -24,23 +23,6 @@ double mean_height_m(const terrain::Terrain& terrain, double otherwise_m) {
 }
 
 }  // namespace
-
-view::Camera camera_at(const std::vector<view::Camera>& keys, double share) {
-    assert(!keys.empty());
-    double place = std::clamp(share, 0.0, 1.0) * double(keys.size() - 1);
-    size_t first = std::min(size_t(place), keys.size() - 1);
-    size_t second = std::min(first + 1, keys.size() - 1);
-    double t = place - double(first);
-    const view::Camera& a = keys[first];
-    const view::Camera& b = keys[second];
-
-    view::Camera camera = a;
-    camera.position_m = a.position_m + t * (b.position_m - a.position_m);
-    camera.heading_deg = a.heading_deg + t * std::remainder(b.heading_deg - a.heading_deg, 360.0);
-    camera.pitch_deg = a.pitch_deg + t * (b.pitch_deg - a.pitch_deg);
-    camera.fov_y_deg = a.fov_y_deg + t * (b.fov_y_deg - a.fov_y_deg);
-    return camera;
-}
 
 view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double highest_m, uint32_t width_px, uint32_t height_px) {
     view::Camera camera;

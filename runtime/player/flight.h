@@ -1,18 +1,13 @@
-// Where the camera stands, frame by frame.
+// Where the camera stands where nobody says it, and over what. Flights are interpolated by runtime/view/flight.h.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "formats/terrain.h"
 #include "runtime/view/camera.h"
 
 namespace overlook::player {
-
-// The camera at `share` (0..1) of the way through the keys, which are equally far apart in time; between two keys everything
-// changes evenly, the heading the shorter way round. keys must not be empty.
-view::Camera camera_at(const std::vector<view::Camera>& keys, double share);
 
 // A view over the whole terrain from above one of its southern corners, the horizon in the upper third.
 // lowest_m, highest_m: range of its heights.

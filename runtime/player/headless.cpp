@@ -4,8 +4,8 @@
 
 #include "runtime/gl/context.h"
 #include "runtime/gl/png.h"
-#include "runtime/player/flight.h"
 #include "runtime/player/report.h"
+#include "runtime/view/flight.h"
 
 namespace overlook::player {
 
@@ -27,13 +27,13 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     if (!target) return tl::unexpected(target.error());
     if (Result<void> uploaded = scene.upload(); !uploaded) return uploaded;
 
-    std::vector<view::Camera> keys = keys_of(plan, scene);
+    settle(plan, scene);
     uint32_t frame_count = std::max(1u, plan.options.frames);
     std::vector<FrameRecord> records;
     command::Progress progress(common, "drawing");
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
-        double share = frame_count == 1 ? 0 : double(frame) / (frame_count - 1);
-        records.push_back(scene.draw(*target, camera_at(keys, share), plan.options.error_px, plan.draw));
+        view::Camera camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
+        records.push_back(scene.draw(*target, camera, plan.options.error_px, plan.draw));
         if (Result<void> written = write_picture(plan, *target, frame, frame + 1 == frame_count); !written) return written;
         progress.set(double(frame + 1) / frame_count);
     }

@@ -1,4 +1,4 @@
-// player: draws a baked terrain, in a window or into pictures.
+// player: draws a scene or a baked terrain, in a window or into pictures.
 
 #include "runtime/command/command.h"
 #include "runtime/player/headless.h"
@@ -29,7 +29,7 @@ int play(const Options& options, const command::Common& common) {
 }  // namespace overlook::player
 
 int main(int argc, char** argv) {
-    CLI::App app("Flies over a baked terrain: in a window, or --headless into pictures", "player");
+    CLI::App app("Flies over a baked terrain or a scene: in a window, or --headless into pictures", "player");
     overlook::command::Common common;
     overlook::player::Options options;
     overlook::player::add_options(app, options);

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "runtime/player/record.h"
+
 namespace overlook::player {
 namespace {
 
@@ -27,6 +29,7 @@ Result<void> check_numbers(const Options& options) {
         return bad_command("--samples {}: 1, 2, 4 or 8 samples a pixel are wanted (0 = chosen)", options.samples);
     }
     if (options.frames > kMostFrames) return bad_command("--frames {}: at most {} are wanted", options.frames, kMostFrames);
+    if (!options.flight.empty() && !options.cameras.empty()) return bad_command("--flight and --camera exclude each other");
     if (options.wireframe && options.split_picture) {
         return bad_command("--wireframe and --split-picture exclude each other");
     }
@@ -59,7 +62,7 @@ void choose_samples(Plan& plan, bool is_software, bool is_window) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("file", options.file, "A baked terrain")->required()->type_name("FILE.ovl");
+    app.add_option("file", options.file, "A baked terrain, or a scene of one")->required()->type_name("FILE.ovl|SCENE.json");
     app.add_flag("--headless", options.headless, "Draw without a window");
     app.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH")->capture_default_str();
     app.add_option("--camera", options.cameras,
@@ -67,15 +70,22 @@ void add_options(CLI::App& app, Options& options) {
         ->type_name("X,Y,Z,H,P")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--frames", options.frames, "Frames to draw; then end")->type_name("N");
+    app.add_option("--flight", options.flight, "Flight to follow, frame by frame at its own step; then end")
+        ->type_name("FLIGHT.json");
+    app.add_option("--record", options.record, "Where the key R records a flight to; default flight-000.json and so on")
+        ->type_name("FLIGHT.json");
+    app.add_option("--frames", options.frames, "Frames to draw; then end. Of a flight at most these")->type_name("N");
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
     app.add_option("--error-px", options.error_px, "Nothing in the picture is displaced by more than this")
         ->type_name("PIXELS")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->each([&options](const std::string&) { options.sets_error_px = true; });
     app.add_flag("--wireframe", options.wireframe, "Draw the triangles' edges");
     app.add_flag("--split-picture", options.split_picture, "Left half wireframe, right half shaded");
-    app.add_option("--haze", options.haze, "How hazy the air is: 0 = clear, 1 = a fair day")->capture_default_str();
+    app.add_option("--haze", options.haze, "How hazy the air is: 0 = clear, 1 = a fair day")
+        ->capture_default_str()
+        ->each([&options](const std::string&) { options.sets_haze = true; });
     app.add_option("--samples", options.samples,
                    "Samples a pixel: 1 (fast), 2, 4 or 8 (smooth); default 4, or 1 in a window drawn by software");
     app.add_option("--report", options.report, "Write counts, times and predicted errors of every frame")->type_name("FILE.json");
@@ -108,6 +118,7 @@ Result<Plan> plan_from(const Options& options) {
     if (Result<void> checked = check_numbers(options); !checked) return tl::unexpected(checked.error());
     Plan plan;
     plan.options = options;
+    plan.flight.interpolation = scene::Interpolation::linear;
     if (Result<void> size = parse_size(options.size, plan.width_px, plan.height_px); !size) return tl::unexpected(size.error());
     if (Result<std::string> path = image_path(options.image, 0); !path) return tl::unexpected(path.error());
 
@@ -119,13 +130,18 @@ Result<Plan> plan_from(const Options& options) {
             std::abs(camera->heading_deg) > kFarthest_m) {
             return bad_command("--camera {}: a number is beyond {}", text, kFarthest_m);
         }
-        camera->width_px = plan.width_px;
-        camera->height_px = plan.height_px;
-        plan.keys.push_back(*camera);
+        plan.flight.keys.push_back(key_of(*camera, double(plan.flight.keys.size())));
+    }
+    if (!options.flight.empty()) {
+        Result<scene::Flight> flight = scene::read_flight(options.flight);
+        if (!flight) return tl::unexpected(flight.error());
+        plan.flight = std::move(*flight);
     }
     if (options.wireframe) plan.draw.look = terrain::Look::wireframe;
     if (options.split_picture) plan.draw.look = terrain::Look::split;
     plan.draw.haze = options.haze;
+    plan.base.width_px = plan.width_px;
+    plan.base.height_px = plan.height_px;
     return plan;
 }
 

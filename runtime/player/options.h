@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/result.h"
+#include "formats/scene.h"
 #include "runtime/command/command.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/view/camera.h"
@@ -14,31 +15,35 @@
 namespace overlook::player {
 
 struct Options {
-    std::string file;  // the baked terrain
+    std::string file;  // the baked terrain, or a scene of one (.json)
     bool headless = false;
     std::string size = "1280x720";
     std::vector<std::string> cameras;  // none = an overview of the terrain
-    uint32_t frames = 0;               // 0 = one picture headless, endless in a window
+    std::string flight;                // a flight to follow; empty = none
+    std::string record;                // where R records a flight to; empty = flight-NNN.json
+    uint32_t frames = 0;               // 0 = all of the flight; without one a picture headless, endless in a window
     std::string image;                 // where pictures go; empty = nowhere
     std::string report;                // where the report goes; empty = nowhere
     double error_px = 1;
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;
-    uint32_t samples = 0;  // a pixel; 0 = settled by choose_samples
+    bool sets_error_px = false, sets_haze = false;  // on the command line, which goes before the scene
+    uint32_t samples = 0;                           // a pixel; 0 = settled by choose_samples
 };
 
 // The same, understood.
 struct Plan {
     Options options;
     uint32_t width_px = 0, height_px = 0;
-    std::vector<view::Camera> keys;  // with the size above; empty = an overview of the terrain
+    scene::Flight flight;  // the cameras, or --flight's; no keys = an overview, until settle() of scene.h
+    view::Camera base;     // what the flight does not say
     terrain::DrawOptions draw;
 };
 
 void add_options(CLI::App& app, Options& options);
 
-// Fails with Exit::bad_command and a line that names the option.
+// Fails with Exit::bad_command and a line that names the option, or as scene::read_flight.
 Result<Plan> plan_from(const Options& options);
 
 // Settles the samples a pixel, if none were asked for: 4, but 1 in a window that the processor draws, which would else be too

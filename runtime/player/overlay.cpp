@@ -50,7 +50,8 @@ void Overlay::draw(const OverlayText& text) {
                           text.renderer->is_software ? " (software)" : ""));
     ImGui::Separator();
     text_line("W A S D move, Q E down/up, mouse looks, Shift faster, wheel speed");
-    text_line("+ - error, F wireframe, H this text, P picture, Esc ends");
+    text_line("+ - error, F wireframe, H this text, P picture, R record, Esc ends");
+    if (text.is_recording) text_line("recording; R ends it");
     ImGui::End();
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -14,6 +14,7 @@ struct OverlayText {
     double error_px = 1;
     double speed_factor = 1;
     uint32_t width_px = 0, height_px = 0;
+    bool is_recording = false;
 };
 
 // Lives as long as the window; only one at a time.

@@ -1,4 +1,4 @@
-// A terrain ready to be flown over: deciding and drawing put together. Must go before the context that it was uploaded to.
+// A scene ready to be flown over: deciding and drawing put together. Must go before the context that it was uploaded to.
 #pragma once
 
 #include <cstdint>
@@ -26,25 +26,38 @@ struct FrameRecord {
 
 class Scene {
   public:
-    // Reads the file. Fails with Exit::bad_input. Needs no OpenGL.
+    // Reads a baked terrain, or (a name that ends in .json) a scene with one. Needs no OpenGL. Fails with Exit::bad_input as
+    // scene::read_scene and terrain::read, and with
+    //   "a.json: /layers/0/method: terrain has no variant paper"
+    //   "a.json: /layers/0/settings/eror_px: terrain has no such setting; did you mean error_px?"
+    //   "a.json: /layers/0/settings/error_px: a number from 0.001 to 10000 is wanted"
+    // with Exit::impossible:
+    //   "a.json: /layers/1: the player draws one terrain at a time; leave one layer"
+    //   "a.json: /layers/0/method: the player cannot draw lod-sprite yet; it draws terrain"
     static Result<Scene> read(const std::string& path);
     // Puts it on the graphics card. Needs a current context; must be called once before draw().
     Result<void> upload();
 
     const terrain::Terrain& terrain() const { return *terrain_; }
     const terrain::Refiner& refiner() const { return *refiner_; }
+    // What the file says, or the defaults of a baked file by itself. One layer; its error_px setting is error_px.
+    const scene::Scene& described() const { return described_; }
+    const scene::Transform& transform() const { return described_.layers.front().transform; }
 
+    // camera: in the scene's frame.
     FrameRecord draw(const gl::Target& target, const view::Camera& camera, double error_px, const terrain::DrawOptions& options);
 
   private:
+    scene::Scene described_;
     std::unique_ptr<terrain::Terrain> terrain_;
     std::optional<terrain::Refiner> refiner_;
     std::optional<terrain::Drawing> drawing_;
     terrain::Cut cut_;
 };
 
-// The camera of each frame that was asked for: the keys, or an overview of the terrain.
-std::vector<view::Camera> keys_of(const Plan& plan, const Scene& scene);
+// Settles what the plan leaves to the scene: error and haze that the command line does not set, near plane and field of view, an
+// overview of the terrain if there are no keys, how many frames a flight has and the step of one between --camera's.
+void settle(Plan& plan, const Scene& scene);
 
 // So near that nothing above the ground is cut off, whatever the size of the cells.
 double near_m(const terrain::Terrain& terrain);

@@ -12,10 +12,11 @@
 #include "runtime/gl/context.h"
 #include "runtime/gl/png.h"
 #include "runtime/player/controls.h"
-#include "runtime/player/flight.h"
 #include "runtime/player/headless.h"
 #include "runtime/player/overlay.h"
+#include "runtime/player/record.h"
 #include "runtime/player/report.h"
+#include "runtime/view/flight.h"
 
 namespace overlook::player {
 namespace {
@@ -29,7 +30,7 @@ using WindowHandle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
 struct Events {
     double wheel = 0;
     int error_presses = 0;
-    bool toggle_wireframe = false, toggle_overlay = false, take_picture = false;
+    bool toggle_wireframe = false, toggle_overlay = false, take_picture = false, toggle_recording = false;
 };
 
 // The state of a window flight that lasts over frames.
@@ -42,6 +43,7 @@ struct Flight {
     uint32_t picture_count = 0;
     double mouse_x_px = 0, mouse_y_px = 0;
     bool has_mouse = false;
+    std::optional<Recording> recording;
 };
 
 std::string last_glfw_error() {
@@ -83,6 +85,9 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
             break;
         case GLFW_KEY_P:
             events.take_picture = true;
+            break;
+        case GLFW_KEY_R:
+            events.toggle_recording = !events.toggle_recording;
             break;
         case GLFW_KEY_EQUAL:
         case GLFW_KEY_KP_ADD:
@@ -137,6 +142,13 @@ void apply(const Events& events, Flight& flight) {
     }
 }
 
+// The hands act in the terrain's own frame.
+void fly_over(const Scene& scene, view::Camera& camera, Flyer& flyer, const Input& input, double dt_s) {
+    view::Camera local = view::camera_into(scene.transform(), camera);
+    fly(local, flyer, input, dt_s, scene.terrain());
+    camera = view::camera_out_of(scene.transform(), local);
+}
+
 // The target follows the window's size; none while the window is minimised.
 Result<void> fit_target(GLFWwindow* window, uint32_t samples, std::optional<gl::Target>& target) {
     int width_px = 0, height_px = 0;
@@ -159,12 +171,35 @@ Result<void> take_picture(const gl::Target& target, const command::Common& commo
     return written;
 }
 
+// Ends a recording that runs: thinned, written, said.
+Result<void> end_recording(const Plan& plan, const command::Common& common, Flight& flight) {
+    if (!flight.recording) return {};
+    Recording recording = std::move(*flight.recording);
+    flight.recording.reset();
+    Result<std::string> path = write_recording(recording, plan.options.record);
+    if (!path) return tl::unexpected(path.error());
+    command::note(common, fmt::format("player: recorded {:.1f} s: {}", recording.samples.back().time_s, *path));
+    return {};
+}
+
+// Begins, goes on with or ends the recording.
+Result<void> record(const Plan& plan, const command::Common& common, bool is_toggled, double now_s, Flight& flight) {
+    if (is_toggled && flight.recording) return end_recording(plan, common, flight);
+    if (is_toggled) flight.recording.emplace(Recording{now_s, {}});
+    if (flight.recording && !add_sample(*flight.recording, flight.camera, now_s)) {
+        command::note(common, "player: the recording is as long as a flight can be");
+        return end_recording(plan, common, flight);
+    }
+    return {};
+}
+
 void show(GLFWwindow* window, const gl::Target& target, const Flight& flight, const FrameRecord& record,
           const gl::Renderer& renderer, Overlay& overlay) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     target.show(target.width_px(), target.height_px());
     if (flight.shows_overlay) {
-        overlay.draw({&record, &renderer, flight.error_px, flight.flyer.speed_factor, target.width_px(), target.height_px()});
+        overlay.draw({&record, &renderer, flight.error_px, flight.flyer.speed_factor, target.width_px(), target.height_px(),
+                      flight.recording.has_value()});
     }
     glfwSwapBuffers(window);
 }
@@ -179,9 +214,8 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
     glfwSetInputMode(window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
     Overlay overlay(window);
 
-    std::vector<view::Camera> keys = keys_of(plan, scene);
     Flight flight;
-    flight.camera = keys.front();
+    flight.camera = view::camera_at(plan.flight, 0, plan.base);
     flight.error_px = plan.options.error_px;
     flight.draw = plan.draw;
     std::optional<gl::Target> target;
@@ -194,11 +228,12 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         double now_s = glfwGetTime();
         Input input = read_input(window, events, flight);
         apply(events, flight);
-        if (frame_count > 0 && keys.size() > 1)
-            flight.camera = camera_at(keys, double(frame) / std::max(1u, frame_count - 1));
+        if (frame_count > 0 && plan.flight.keys.size() > 1)
+            flight.camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
         else
-            fly(flight.camera, flight.flyer, input, now_s - last_s, scene.terrain());
+            fly_over(scene, flight.camera, flight.flyer, input, now_s - last_s);
         last_s = now_s;
+        if (Result<void> kept = record(plan, common, events.toggle_recording, now_s, flight); !kept) return kept;
 
         if (Result<void> fitted = fit_target(window, plan.options.samples, target); !fitted) return fitted;
         if (!target) {
@@ -218,6 +253,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
             if (Result<void> written = write_picture(plan, *target, frame - 1, frame == frame_count); !written) return written;
         }
     }
+    if (Result<void> ended = end_recording(plan, common, flight); !ended) return ended;
     return frame_count > 0 ? deliver_report(plan, common, renderer, records) : Result<void>();
 }
 
@@ -241,6 +277,7 @@ Result<void> run_in_window(Plan plan, const command::Common& common, Scene read_
     gl::ErrorCounter errors;
     Scene scene = std::move(read_scene);  // goes before the window and its context
     if (Result<void> uploaded = scene.upload(); !uploaded) return uploaded;
+    settle(plan, scene);
     Result<void> flown = fly_until_end(plan, common, scene, window->get(), *renderer);
     if (flown && errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
     return flown;

@@ -9,6 +9,8 @@
 
 #include "runtime/player/controls.h"
 #include "runtime/player/flight.h"
+#include "runtime/player/record.h"
+#include "runtime/view/flight.h"
 #include "tests/gl/fixture.h"
 
 namespace overlook {
@@ -44,6 +46,12 @@ class Player : public ::testing::Test {
     bool is_one_line() const { return !output_.empty() && output_.find('\n') == output_.size() - 1; }
     std::string in_folder(const std::string& name) const { return (folder_ / name).string(); }
     nlohmann::json report() const { return nlohmann::json::parse(std::ifstream(in_folder("report.json"))); }
+
+    void write(const std::string& name, const std::string& text) const { std::ofstream(in_folder(name)) << text; }
+    std::string bytes(const std::string& name) const {
+        std::ifstream in(in_folder(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
 
     std::filesystem::path folder_;
     std::string file_, output_;
@@ -120,6 +128,112 @@ TEST_F(Player, SaysWhenAPictureCannotBeWritten) {
     EXPECT_TRUE(is_one_line()) << output_;
 }
 
+TEST_F(Player, FollowsAFlightOverAScene) {
+    write("scene.json", R"({"version":1,"layers":[{"asset":"hills.ovl","method":"terrain",
+        "transform":{"translation_m":[1e6,2e6,100],"rotation_z_deg":0,"scale":2}}],"error_px":3})");
+    write("flight.json", R"({"version":1,"step_s":0.5,"interpolation":"linear","keys":[
+        {"time_s":0,"position_m":[1000640,1998200,700],"heading_deg":0,"pitch_deg":-15},
+        {"time_s":1,"position_m":[1000640,1999000,700],"heading_deg":20,"pitch_deg":-15}]})");
+    std::string options = " --headless --size 64x48 --report " + in_folder("report.json");
+    ASSERT_EQ(
+        play(in_folder("scene.json") + options + " --flight " + in_folder("flight.json") + " --image " + in_folder("s%d.png")), 0)
+        << output_;
+    ASSERT_EQ(report()["frames"].size(), 3u);
+    EXPECT_EQ(report()["error_px"], 3);
+    // The same by itself: moved, and half as large.
+    ASSERT_EQ(
+        play(file_ + options + " --error-px 3 --frames 3 --camera 320,-900,300,0,-15 --camera 320,-500,300,20,-15 --image " +
+             in_folder("o%d.png")),
+        0)
+        << output_;
+    for (int frame = 0; frame < 3; ++frame)
+        EXPECT_EQ(bytes("s" + std::to_string(frame) + ".png"), bytes("o" + std::to_string(frame) + ".png")) << frame;
+    EXPECT_NE(bytes("s0.png"), bytes("s2.png"));
+
+    ASSERT_EQ(play(in_folder("scene.json") + options + " --error-px 1 --frames 2 --flight " + in_folder("flight.json")), 0);
+    EXPECT_EQ(report()["frames"].size(), 2u);
+    EXPECT_EQ(report()["error_px"], 1);
+}
+
+TEST_F(Player, RefusesScenesThatItCannotDraw) {
+    struct Case {
+        std::string layers;
+        int exit;
+        std::string message;
+    };
+    for (const Case& c : std::initializer_list<Case>{
+             {R"({"asset":"hills.ovl","method":"terrain"},{"asset":"hills.ovl","method":"terrain"})", 5,
+              "scene.json: /layers/1: the player draws one terrain at a time; leave one layer\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite:paper"})", 5,
+              "scene.json: /layers/0/method: the player cannot draw lod-sprite yet; it draws terrain\n"},
+             {R"({"asset":"hills.ovl","method":"terrain:paper"})", 3,
+              "scene.json: /layers/0/method: terrain has no variant paper\n"},
+             {R"({"asset":"hills.ovl","method":"terrain","settings":{"eror_px":1}})", 3,
+              "scene.json: /layers/0/settings/eror_px: terrain has no such setting; did you mean error_px?\n"},
+             {R"({"asset":"hills.ovl","method":"terrain","settings":{"error_px":true}})", 3,
+              "scene.json: /layers/0/settings/error_px: a number from 0.001 to 10000 is wanted\n"},
+             {R"({"asset":"none.ovl","method":"terrain"})", 3, "none.ovl: No such file or directory\n"}}) {
+        write("scene.json", R"({"version":1,"layers":[)" + c.layers + "]}");
+        EXPECT_EQ(play(in_folder("scene.json") + " --headless --size 16x16"), c.exit) << output_;
+        EXPECT_TRUE(output_.ends_with(c.message)) << output_;
+        EXPECT_TRUE(is_one_line()) << output_;
+    }
+    write("flight.json", "{\"version\":1,\n\"keys\":[],\"interpolation\":\"linear\"}");
+    EXPECT_EQ(play(file_ + " --headless --flight " + in_folder("flight.json")), 3);
+    EXPECT_TRUE(output_.ends_with("flight.json:2:8: /keys: has 0 items; 1 to 65536 are wanted\n")) << output_;
+    EXPECT_EQ(play(file_ + " --headless --camera 1,2,3,0,0 --flight " + in_folder("flight.json")), 2) << output_;
+}
+
+// A flight by hand, at an uneven frame rate: turns over north, stops, climbs.
+std::vector<scene::Key> by_hand() {
+    player::Recording recording{100, {}};
+    view::Camera camera;
+    for (int i = 0; i < 2000; ++i) {
+        double t = i / 60.0 + 0.004 * (i % 3);
+        camera.position_m = {300 * std::sin(t / 3), 40 * std::min(t, 12.0), 200 + std::max(0.0, t - 20) * 15};
+        camera.heading_deg = 30 * std::sin(t / 2);
+        camera.pitch_deg = -20 + 10 * std::cos(t);
+        EXPECT_TRUE(player::add_sample(recording, camera, 100 + t));
+        EXPECT_TRUE(player::add_sample(recording, camera, 100 + t));  // the same time again is left out
+    }
+    EXPECT_EQ(recording.samples.size(), 2000u);
+    return recording.samples;
+}
+
+TEST(RecordedFlight, IsReproducedWithinItsToleranceByFewKeys) {
+    std::vector<scene::Key> samples = by_hand();
+    scene::Flight flight = player::thinned(samples, player::kRecordTolerance_m, player::kRecordTolerance_deg);
+    EXPECT_LT(flight.keys.size(), samples.size() / 8);
+    EXPECT_GT(flight.keys.size(), 8u);
+    for (const scene::Key& sample : samples) {
+        view::Camera camera = view::camera_at(flight, sample.time_s, {});
+        const auto& [x, y, z] = sample.position_m;
+        ASSERT_LE(glm::distance(camera.position_m, glm::dvec3(x, y, z)), player::kRecordTolerance_m) << sample.time_s;
+        ASSERT_LE(std::abs(std::remainder(camera.heading_deg - sample.heading_deg, 360.0)), player::kRecordTolerance_deg);
+        ASSERT_LE(std::abs(camera.pitch_deg - sample.pitch_deg), player::kRecordTolerance_deg);
+    }
+}
+
+TEST(RecordedFlight, IsReadAgainAsItWasThinned) {
+    player::Recording recording{0, by_hand()};
+    std::string path = testing::TempDir() + "recorded.flight.json";
+    Result<std::string> written = player::write_recording(recording, path);
+    ASSERT_TRUE(written) << written.error().message;
+    Result<scene::Flight> flight = scene::read_flight(path);
+    ASSERT_TRUE(flight) << flight.error().message;
+    EXPECT_EQ(
+        scene::json_from_flight(*flight),
+        scene::json_from_flight(player::thinned(recording.samples, player::kRecordTolerance_m, player::kRecordTolerance_deg)));
+    recording.samples.resize(1);
+    EXPECT_TRUE(player::write_recording(recording, path));
+    EXPECT_EQ(scene::read_flight(path)->keys.size(), 1u);
+    recording.samples[0].position_m[0] = 1e12;
+    Result<std::string> refused = player::write_recording(recording, path);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().exit, Exit::impossible);
+    std::filesystem::remove(path);
+}
+
 TEST(Flying, NeverGoesUnderTheGround) {
     terrain::Terrain terrain = test::hilly_terrain(65);
     view::Camera camera = test::from_south(terrain, 64, 48);
@@ -138,16 +252,6 @@ TEST(Flying, NeverGoesUnderTheGround) {
         touched = touched || camera.position_m.z < *ground + player::kLeastHeight_m + 1;
     }
     EXPECT_TRUE(touched);
-}
-
-TEST(Flight, TurnsTheShorterWayRound) {
-    view::Camera a, b;
-    a.heading_deg = 350;
-    b.heading_deg = 20;
-    b.position_m = {10, 20, 30};
-    EXPECT_NEAR(std::remainder(player::camera_at({a, b}, 0.5).heading_deg - 5, 360.0), 0, 1e-9);
-    EXPECT_NEAR(player::camera_at({a, b}, 0.5).position_m.y, 10, 1e-9);
-    EXPECT_EQ(player::camera_at({a, b}, 1).position_m, b.position_m);
 }
 
 }  // namespace

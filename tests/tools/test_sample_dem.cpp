@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "formats/scene.h"
 #include "tools/make_sample/geotiff.h"
 
 namespace overlook::sample {
@@ -124,7 +125,10 @@ TEST(SampleDem, WritesWhatTheLandscapeIs) {
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(samples_of(parse(file_bytes(folder + "/dem.tif"))), make_landscape(tiny().landscape).height_m);
     EXPECT_EQ(report->void_samples, 0u);
-    EXPECT_TRUE(std::filesystem::exists(folder + "/recipe.toml"));
+    ASSERT_EQ(report->files.size(), 4u);
+    for (const std::string& file : report->files) EXPECT_TRUE(std::filesystem::exists(file)) << file;
+    EXPECT_TRUE(scene::read_scene(folder + "/scene.json"));
+    EXPECT_TRUE(scene::read_flight(folder + "/flight.json"));
 }
 
 TEST(SampleDem, DigsTheVoidsItReportsAndLeavesTheRest) {

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     command::Common common;
     sample::DemOptions options;
     std::string folder;
-    CLI::App* dem = app.add_subcommand("dem", "A landscape as an elevation model: dem.tif, recipe.toml");
+    CLI::App* dem = app.add_subcommand("dem", "A landscape as an elevation model: dem.tif, recipe.toml, scene.json, flight.json");
     dem->add_option("-o,--output", folder, "Folder to write into")->required();
     dem->add_option("--size", options.landscape.side, "Samples a side")->capture_default_str();
     dem->add_option("--cell-size-m", options.landscape.cell_size_m, "Metres between samples")->capture_default_str();

@@ -8,6 +8,7 @@
 #include "formats/atomic_file.h"
 #include "tools/make_sample/geotiff.h"
 #include "tools/make_sample/noise.h"
+#include "tools/make_sample/sample_flight.h"
 
 namespace overlook::sample {
 namespace {
@@ -65,6 +66,7 @@ Result<DemReport> make_dem(const DemOptions& options, const std::string& folder)
     auto [lowest, highest] = std::minmax_element(landscape.height_m.begin(), landscape.height_m.end());
     report.lowest_m = *lowest;
     report.highest_m = *highest;
+    std::string flight = scene::json_from_flight(overview_flight(landscape, options.landscape.cell_size_m));
     report.void_samples =
         dig_voids(landscape.height_m, landscape.side, options.void_count, options.landscape.seed + 7000, float(kNodata));
 
@@ -73,11 +75,16 @@ Result<DemReport> make_dem(const DemOptions& options, const std::string& folder)
     std::optional<int> nodata;
     if (options.void_count > 0) nodata = kNodata;
     std::vector<std::byte> tiff = geotiff_bytes(landscape.height_m, landscape.side, landscape.side, placement, nodata);
-    std::string dem_path = (std::filesystem::path(folder) / "dem.tif").string();
-    std::string recipe_path = (std::filesystem::path(folder) / "recipe.toml").string();
-    if (Result<void> written = write_file(dem_path, tiff); !written) return tl::unexpected(written.error());
-    if (Result<void> written = write_file(recipe_path, recipe_of(options)); !written) return tl::unexpected(written.error());
-    report.files = {dem_path, recipe_path};
+    auto path_of = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+    if (Result<void> written = write_file(path_of("dem.tif"), tiff); !written) return tl::unexpected(written.error());
+    report.files.push_back(path_of("dem.tif"));
+    for (const auto& [name, text] :
+         {std::pair("recipe.toml", recipe_of(options)), std::pair("scene.json", scene::json_from_scene(sample_scene())),
+          std::pair("flight.json", flight)}) {
+        if (Result<void> written = write_file(path_of(name), std::string_view(text)); !written)
+            return tl::unexpected(written.error());
+        report.files.push_back(path_of(name));
+    }
     return report;
 }
 

@@ -22,8 +22,9 @@ struct DemReport {
     uint64_t void_samples = 0;
 };
 
-// Writes `dem.tif` (32-bit floats, multiples of kHeightStepM, on UTM zone 32N) and `recipe.toml` into a
-// folder, which it makes where there is none. Fails with Exit::cannot_write, or with Exit::bad_command:
+// Writes `dem.tif` (32-bit floats, multiples of kHeightStepM, on UTM zone 32N) `recipe.toml`, `scene.json` (of `sample.ovl`, to
+// be baked beside it) and `flight.json` into a folder, which it makes where there is none. Fails with Exit::cannot_write, or with
+// Exit::bad_command:
 // "--size 20 is outside 33..4097", "--cell-size-m 0 is outside 1..1000", "--voids 20000 is outside 0..10000".
 Result<DemReport> make_dem(const DemOptions& options, const std::string& folder);
 
