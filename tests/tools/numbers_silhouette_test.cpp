@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/numbers_pictures.h"
+#include "tools/measure/numbers/distance_transform.h"
+#include "tools/measure/numbers/silhouette.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr uint32_t kHorizon = 20;
+
+Frame horizon_frame(uint32_t width = 60, uint32_t height = 50, uint32_t horizon = kHorizon) {
+    return mask_frame(width, height, [horizon](uint32_t, uint32_t y) { return y >= horizon; });
+}
+size_t at(const Frame& frame, uint32_t x, uint32_t y) {
+    return size_t(y) * frame.width + x;
+}
+void show_background(Frame& frame, uint32_t x, uint32_t y) {
+    frame.ids[at(frame, x, y)] = kBackground;
+    frame.depth_m[at(frame, x, y)] = std::numeric_limits<float>::infinity();
+}
+
+// A near ridge at 100 m before a valley at 200 m, one thing, the crest in a column.
+Frame ridge_frame(uint32_t crest) {
+    Frame frame = mask_frame(60, 40, [](uint32_t, uint32_t) { return true; });
+    for (uint32_t y = 0; y < 40; ++y)
+        for (uint32_t x = crest; x < 60; ++x) frame.depth_m[at(frame, x, y)] = 200;
+    return frame;
+}
+
+TEST(DistanceTransform, EqualsSearchingAllPixels) {
+    for (auto [width, height] : {std::pair(1u, 1u), {1u, 40u}, {40u, 1u}, {31u, 23u}, {90u, 70u}})
+        for (uint32_t one_of : {1u, 7u, 200u}) {
+            std::vector<uint8_t> marked(size_t(width) * height);
+            uint32_t seed = width * one_of;
+            for (uint8_t& mark : marked) mark = ((seed = seed * 1664525u + 1013904223u) >> 16) % one_of == 0;
+            marked.back() = 1;
+            std::vector<uint32_t> distances = squared_distances_px(width, height, marked);
+            for (uint32_t i = 0; i < marked.size(); ++i) {
+                uint32_t nearest = kNoneMarked;
+                for (uint32_t j = 0; j < marked.size(); ++j) {
+                    int dx = int(i % width) - int(j % width), dy = int(i / width) - int(j / width);
+                    if (marked[j]) nearest = std::min(nearest, uint32_t(dx * dx + dy * dy));
+                }
+                ASSERT_EQ(distances[i], nearest) << width << "x" << height << ", pixel " << i;
+            }
+        }
+}
+
+TEST(DistanceTransform, SaysThatNothingIsMarked) {
+    for (uint32_t distance : squared_distances_px(9, 4, std::vector<uint8_t>(36))) EXPECT_EQ(distance, kNoneMarked);
+}
+
+TEST(Silhouette, ShiftedByNPixelsIsOffByN) {
+    for (uint32_t n = 0; n <= 12; ++n) {
+        auto left_of = [](uint32_t edge) { return mask_frame(80, 33, [edge](uint32_t x, uint32_t) { return x < edge; }); };
+        SilhouetteError upright = silhouette_error(left_of(30 + n), left_of(30));
+        EXPECT_DOUBLE_EQ(upright.p95_px, n);
+        EXPECT_DOUBLE_EQ(upright.max_px, n);
+        EXPECT_EQ(upright.test_border_px, 33u);
+        SilhouetteError level = silhouette_error(horizon_frame(60, 50, kHorizon), horizon_frame(60, 50, kHorizon + n));
+        EXPECT_DOUBLE_EQ(level.p95_px, n);
+        EXPECT_DOUBLE_EQ(level.max_px, n);
+    }
+}
+
+TEST(Silhouette, GrownDiscIsOffByWhatItGrew) {
+    auto disc = [](double radius_px) {
+        return mask_frame(101, 91, [=](uint32_t x, uint32_t y) { return std::hypot(x - 50.0, y - 45.0) <= radius_px; });
+    };
+    SilhouetteError error = silhouette_error(disc(33), disc(28));
+    EXPECT_NEAR(error.p95_px, 5, 0.8);
+    EXPECT_NEAR(error.max_px, 5, 1.0);
+}
+
+TEST(Silhouette, LostSpireShowsInTheMaximumOnly) {
+    Frame bare = horizon_frame(600, 50);
+    Frame spire = mask_frame(600, 50, [](uint32_t x, uint32_t y) { return y >= kHorizon || (x == 300 && y >= kHorizon - 12); });
+    for (const SilhouetteError& error : {silhouette_error(bare, spire), silhouette_error(spire, bare)}) {
+        EXPECT_DOUBLE_EQ(error.max_px, 12);
+        EXPECT_DOUBLE_EQ(error.p95_px, 0);
+    }
+}
+
+TEST(Silhouette, WithoutAnyBorderIsNotOff) {
+    Frame nothing = mask_frame(20, 10, [](uint32_t, uint32_t) { return false; });
+    Frame everything = mask_frame(20, 10, [](uint32_t, uint32_t) { return true; });
+    for (const Frame* test : {&nothing, &everything})
+        for (const Frame* reference : {&nothing, &everything}) EXPECT_EQ(silhouette_error(*test, *reference).max_px, 0);
+    Frame pixel = mask_frame(1, 1, [](uint32_t, uint32_t) { return true; });
+    EXPECT_EQ(silhouette_error(pixel, pixel).max_px, 0);
+}
+
+TEST(Silhouette, OfOneAloneIsMeasuredToTheOutside) {
+    Frame nothing = mask_frame(60, 50, [](uint32_t, uint32_t) { return false; });
+    Frame block = mask_frame(60, 50, [](uint32_t x, uint32_t y) { return x >= 20 && x < 40 && y >= 20 && y < 30; });
+    EXPECT_DOUBLE_EQ(silhouette_error(nothing, block).max_px, 21);
+    EXPECT_DOUBLE_EQ(silhouette_error(block, nothing).max_px, 21);
+    EXPECT_DOUBLE_EQ(silhouette_error(horizon_frame(60, 50, 0), horizon_frame(60, 50, 1)).max_px, 2)
+        << "a horizon just beyond the top";
+}
+
+TEST(Silhouette, FailsItsGateWhenTheHorizonIsOffByMoreThanAsked) {
+    double asked_px = 2;
+    EXPECT_LE(silhouette_error(horizon_frame(60, 50, 21), horizon_frame(60, 50, 20)).p95_px, asked_px + 1);
+    EXPECT_GT(silhouette_error(horizon_frame(60, 50, 24), horizon_frame(60, 50, 20)).p95_px, asked_px + 1);
+}
+
+TEST(Holes, AreNoneInTheReferenceItself) {
+    Frame frame = horizon_frame();
+    HolePixels holes = hole_pixels(frame, frame, 1);
+    EXPECT_EQ(holes.count, 0u);
+    EXPECT_EQ(holes.lost_px, 0u);
+    EXPECT_EQ(holes.thing_px, 60u * 30u);
+}
+
+TEST(Holes, OfKnownPixelsAreCounted) {
+    Frame reference = horizon_frame(), test = reference;
+    for (auto [x, y] : {std::pair(30u, 30u), {31u, 30u}, {0u, 49u}, {59u, 25u}}) show_background(test, x, y);
+    test.ids[at(test, 10, 40)] = 2;
+    test.depth_m[at(test, 20, 40)] = 102;    // 2 % deeper
+    test.depth_m[at(test, 21, 40)] = 100.5;  // within 1 %
+    test.depth_m[at(test, 22, 40)] = 50;     // nearer
+    HolePixels holes = hole_pixels(test, reference, 1);
+    EXPECT_EQ(holes.background, 4u);
+    EXPECT_EQ(holes.other_thing, 1u);
+    EXPECT_EQ(holes.deeper, 1u);
+    EXPECT_EQ(holes.count, 6u);
+    EXPECT_EQ(holes.lost_px, 5u);
+    EXPECT_EQ(holes.mask[at(test, 30, 30)], 1);
+    EXPECT_EQ(holes.mask[at(test, 10, 40)], 2);
+    EXPECT_EQ(holes.mask[at(test, 20, 40)], 3);
+}
+
+TEST(Holes, WithinOneAndAHalfPixelsOfTheBorderAreNotCounted) {
+    for (uint32_t below = 0; below < 6; ++below) {
+        Frame reference = horizon_frame(), test = reference;
+        show_background(test, 30, kHorizon + below);
+        EXPECT_EQ(hole_pixels(test, reference, 1).count, below > 1 ? 1u : 0u) << below;
+        EXPECT_EQ(hole_pixels(test, reference, 1).lost_px, 1u);
+    }
+}
+
+TEST(Holes, OfDepthForgiveACrestMovedByAPixelAndNoMore) {
+    Frame reference = ridge_frame(30);
+    for (uint32_t moved = 0; moved < 8; ++moved) {
+        HolePixels holes = hole_pixels(ridge_frame(30 - moved), reference, 1);
+        EXPECT_EQ(holes.deeper, moved > 2 ? (moved - 2) * 40 : 0) << moved;
+        EXPECT_EQ(holes.count, holes.deeper);
+    }
+}
+
+TEST(Holes, AreThoseOfTheThingAskedForAlone) {
+    Frame reference = horizon_frame(), test = reference;
+    for (uint32_t y = 30; y < 50; ++y)
+        for (uint32_t x = 0; x < 60; ++x) reference.ids[at(reference, x, y)] = test.ids[at(test, x, y)] = 7;
+    show_background(test, 30, 40);
+    EXPECT_EQ(hole_pixels(test, reference, 1).count, 0u);
+    EXPECT_EQ(hole_pixels(test, reference, 7).count, 1u);
+    EXPECT_EQ(hole_pixels(test, reference, 8).thing_px, 0u);
+}
+
+TEST(Holes, FailTheirGateWithASinglePixel) {
+    Frame reference = mask_frame(1, 1, [](uint32_t, uint32_t) { return true; });
+    Frame empty = mask_frame(1, 1, [](uint32_t, uint32_t) { return false; });
+    EXPECT_EQ(hole_pixels(reference, reference, 1).count, 0u);
+    EXPECT_EQ(hole_pixels(empty, reference, 1).count, 1u);
+    EXPECT_EQ(hole_pixels(reference, empty, 1).count, 0u);
+}
+
+}  // namespace
+}  // namespace overlook::measure
