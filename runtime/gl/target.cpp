@@ -1,6 +1,7 @@
 #include "runtime/gl/target.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 
 namespace overlook::gl {
@@ -89,6 +90,20 @@ ImageRgb8 Target::read() const {
         std::memcpy(&image.pixels[row * row_bytes], &bottom_first[(height_px_ - 1 - row) * row_bytes], row_bytes);
     }
     return image;
+}
+
+std::vector<float> Target::read_depth() const {
+    assert(samples_ == 1);
+    std::vector<float> bottom_first(size_t(width_px_) * height_px_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.id());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, GLsizei(width_px_), GLsizei(height_px_), GL_DEPTH_COMPONENT, GL_FLOAT, bottom_first.data());
+
+    std::vector<float> depth(bottom_first.size());
+    for (size_t row = 0; row < height_px_; ++row) {
+        std::copy_n(&bottom_first[(height_px_ - 1 - row) * width_px_], width_px_, &depth[row * width_px_]);
+    }
+    return depth;
 }
 
 void Target::show(uint32_t window_width_px, uint32_t window_height_px) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "formats/image.h"
 #include "formats/result.h"
@@ -25,6 +26,9 @@ class Target {
     void resolve() const;
     // The picture, top row first. Waits until everything is drawn.
     ImageRgb8 read() const;
+    // What the depth buffer holds, [height, width] top row first: near_m / depth (view::projection), 0 where nothing is drawn.
+    // Only of a target with one sample a pixel, which lies in the pixel's middle. Waits as read() does.
+    std::vector<float> read_depth() const;
     // Copies the picture into the window's own framebuffer, whose size may differ.
     void show(uint32_t window_width_px, uint32_t window_height_px) const;
 

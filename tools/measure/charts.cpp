@@ -1,0 +1,189 @@
+#include "tools/measure/charts.h"
+
+#include <algorithm>
+#include <array>
+
+#include "tools/measure/figures.h"
+#include "tools/measure/methods.h"
+
+namespace overlook::measure {
+namespace {
+
+// Okabe and Ito's colours, which the colour-blind tell apart; the floor is always black.
+constexpr std::array<const char*, 7> kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F00"};
+constexpr std::array<int, 6> kPoints = {7, 5, 9, 13, 11, 15};
+
+std::string quoted(const std::string& text) {
+    std::string safe = "'";
+    for (char c : text) safe += c == '\'' ? "''" : std::string(1, c);
+    return safe + "'";
+}
+
+constexpr char kHead[] = R"(# Draws one chart. Run it in this folder; what stands below is what measure draws for wide screens.
+if (!exists("kind")) kind = "svg"
+if (!exists("width")) width = 900
+if (!exists("height")) height = 540
+if (!exists("to")) to = "chart." . kind
+if (kind eq "png") set terminal pngcairo size width,height font "DejaVu Sans,12" background "#ffffff"; else set terminal svg size width,height dynamic font "DejaVu Sans,Verdana,sans-serif,14" background "#ffffff"
+set output to
+set encoding utf8
+set datafile separator ","
+set border 3 lc rgb "#555555"
+set tics nomirror textcolor rgb "#222222"
+set grid lc rgb "#dddddd" lt 1
+set key outside below left Left reverse samplen 2 noenhanced maxcols (width < 600 ? 1 : 3) font ",12"
+set ylabel offset 1,0
+is_narrow = width < 600
+)";
+
+// In the order of the runs, each family once; the floor's last.
+std::vector<std::string> families_of(const CourseResult& course) {
+    std::vector<std::string> families;
+    for (const RunResult& run : course.runs) {
+        std::string family = family_of(run.spec);
+        if (!is_floor(run.spec) && std::find(families.begin(), families.end(), family) == families.end()) {
+            families.push_back(family);
+        }
+    }
+    return families;
+}
+
+std::string style_of(const CourseResult& course, size_t run, double width) {
+    if (is_floor(course.runs[run].spec)) return fmt::format("lc rgb \"#000000\" lw {} dt 2", width);
+    size_t place = 0;
+    for (size_t i = 0; i < run; ++i) place += is_floor(course.runs[i].spec) ? 0 : 1;
+    return fmt::format("lc rgb \"{}\" lw {}", kColours[place % kColours.size()], width);
+}
+
+// runs.csv's columns: 1 run, 2 method, 3 is_floor, 4 e, 7 frame_ms_p50, 9 triangles_p50, 10 resident bytes.
+Chart front(const CourseResult& course, const std::string& name, const std::string& cost, int column) {
+    Chart chart{name, "Cost of a frame against its error", kHead};
+    chart.script +=
+        fmt::format("set xlabel {}\nset ylabel 'E: LDR-FLIP, 99th percentile'\nset logscale x\nset yrange [0:*]\n", quoted(cost));
+    chart.script += "set format x '%.0s%c'\nset offsets graph 0.08, graph 0.08, graph 0.12, 0\n";
+    chart.script += "size_of(bytes) = 0.35 * sqrt(bytes / 1e6) + 0.4\n";
+    std::string lines, dots;
+    size_t place = 0;
+    for (const std::string& family : families_of(course)) {
+        const char* colour = kColours[place % kColours.size()];
+        std::string of = fmt::format("(strcol(2) eq {} ? ${} : NaN)", quoted(family), column);
+        lines += fmt::format("'../runs.csv' skip 1 using {}:4 with lines lc rgb \"{}\" lw 2 title {}, \\\n", of, colour,
+                             quoted(family));
+        dots += fmt::format(
+            "'../runs.csv' skip 1 using {}:4:(size_of($10)) with points pt {} ps variable lc rgb \"{}\" notitle, \\\n", of,
+            kPoints[place % kPoints.size()], colour);
+        dots += fmt::format(
+            "'../runs.csv' skip 1 using {}:4:(swept(strcol(1))) with labels noenhanced font ',12' offset 0,1.1 tc rgb "
+            "\"#333333\" "
+            "notitle, \\\n",
+            of);
+        ++place;
+    }
+    chart.script +=
+        "swept(run) = strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
+        "strstrt(run . '@samples', '@samples') - 1) . ' px'\n";
+    chart.script += "plot " + lines + dots;
+    chart.script += fmt::format(
+        "'../runs.csv' skip 1 using ($3 == 1 ? ${} : NaN):4:(size_of($10)) with points pt 6 lw 2 ps variable lc rgb \"#000000\" "
+        "title 'full: the floor (dot area: bytes held)'\n",
+        column);
+    return chart;
+}
+
+std::string column_of(std::string_view name) {
+    size_t column = 4;
+    for (const Figure& one : figures()) {
+        if (one.name == name) return std::to_string(column);
+        ++column;
+    }
+    return "1";
+}
+
+// One line a run of a column of frames.csv over the frames.
+std::string lines_over_flight(const CourseResult& course, std::string_view name, bool has_title) {
+    std::string plot = "plot ";
+    for (size_t i = 0; i < course.runs.size(); ++i) {
+        const std::string& label = course.runs[i].label;
+        plot += fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? $2 : NaN):{} with lines {} {}",
+                            i == 0 ? "" : ", \\\n", quoted(label), column_of(name), style_of(course, i, 1.8),
+                            has_title ? "title " + quoted(label) : "notitle");
+    }
+    // Events as ticks at the foot.
+    plot +=
+        fmt::format(", \\\n'../frames.csv' skip 1 using (${} > 0 ? $2 : NaN):(0) with points pt 2 lc rgb \"#000000\" notitle\n",
+                    column_of("events"));
+    return plot;
+}
+
+bool has_pictures(const CourseResult& course) {
+    return std::all_of(course.runs.begin(), course.runs.end(), [](const RunResult& run) { return run.worst_e.is_there; });
+}
+
+Chart over_flight(const CourseResult& course) {
+    Chart chart{"flight", "Steadiness and frame time over the flight", kHead};
+    if (!has_pictures(course)) {
+        chart.title = "Frame time over the flight";
+        chart.script += "set xlabel 'frame'\nset ylabel 'frame time, ms'\nset logscale y\n";
+        chart.script += lines_over_flight(course, "frame_ms", true);
+        return chart;
+    }
+    chart.script += "set multiplot\nset lmargin is_narrow ? 9 : 11\nset rmargin 2\n";
+    chart.script +=
+        "set origin 0,0.66\nset size 1,0.34\nset bmargin 1.5\nset ylabel 'W, luma'\nset yrange [0:*]\nset xtics format ''\n";
+    chart.script += "unset key\n" + lines_over_flight(course, "w_luma", false);
+    chart.script +=
+        "set origin 0,0\nset size 1,0.66\nunset bmargin\nset ylabel 'frame time, ms'\nset autoscale y\nset logscale y\n"
+        "set xtics format '%g'\nset xlabel 'frame'\n"
+        "set key outside below left Left reverse samplen 2 noenhanced maxcols (is_narrow ? 1 : 3) font ',12'\n";
+    chart.script += lines_over_flight(course, "frame_ms", true) + "unset multiplot\n";
+    return chart;
+}
+
+Chart distribution(const CourseResult& course) {
+    Chart chart{"distribution", "How the errors are spread", kHead};
+    chart.script +=
+        "set xlabel 'E of a frame: LDR-FLIP, 99th percentile over its pixels'\nset ylabel 'share of frames at most so'\n";
+    chart.script += "set yrange [0:1.02]\nset format y '%.1f'\nplot ";
+    for (size_t i = 0; i < course.runs.size(); ++i) {
+        const std::string& label = course.runs[i].label;
+        chart.script +=
+            fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):(1) smooth cnorm with steps {} title {}",
+                        i == 0 ? "" : ", \\\n", quoted(label), column_of("e_p99_flip"), style_of(course, i, 2), quoted(label));
+    }
+    chart.script += "\n";
+    return chart;
+}
+
+Chart promise(const CourseResult& course) {
+    Chart chart{"promise", "Promised against measured pixels", kHead};
+    chart.script +=
+        "set xlabel 'promised of the frame: predicted error, pixels'\nset ylabel 'measured: outlines, greatest, pixels'\n";
+    chart.script += "set xrange [0:*]\nset yrange [0:*]\nset offsets graph 0.03, graph 0.05, graph 0.05, 0\n";
+    chart.script += "plot x + 1 with lines lc rgb \"#999999\" dt 2 title 'promise, and one pixel of the raster'";
+    for (size_t i = 0; i < course.runs.size(); ++i) {
+        if (is_floor(course.runs[i].spec)) continue;
+        const std::string& label = course.runs[i].label;
+        chart.script += fmt::format(
+            ", \\\n'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):{} with points pt 7 ps 0.6 {} title {}",
+            quoted(label), column_of("predicted_error_px"), column_of("s_max_px"), style_of(course, i, 1), quoted(label));
+    }
+    chart.script += "\n";
+    return chart;
+}
+
+}  // namespace
+
+std::vector<Chart> charts_of(const CourseResult& course) {
+    std::vector<Chart> charts;
+    if (has_pictures(course)) {
+        charts.push_back(front(course, "front_ms", "frame time, ms (median)", 7));
+        charts.push_back(front(course, "front_triangles", "triangles submitted (median)", 9));
+    }
+    charts.push_back(over_flight(course));
+    if (!has_pictures(course)) return charts;
+    charts.push_back(distribution(course));
+    charts.push_back(promise(course));
+    return charts;
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,79 @@
+#include "tools/measure/figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace overlook::measure {
+namespace {
+
+using R = const FrameRecord&;
+using O = std::optional<double>;
+
+constexpr double kMostPopIndex = 1.2;
+constexpr double kAtFloor = 1.02;
+
+constexpr std::array<Figure, 19> kFigures = {{
+    {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
+    {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
+    {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
+    {"s_p95_px", "distance of the outlines from the reference's, 95th percentile", [](R r) -> O { return r.numbers.s_p95_px; },
+     true},
+    {"s_max_px", "the same, greatest", [](R r) -> O { return r.numbers.s_max_px; }, true},
+    {"hole_px", "pixels that show through what should be there", [](R r) -> O { return r.numbers.hole_count; }, true},
+    {"psnr_db", "peak signal to noise against the reference", [](R r) -> O { return r.numbers.psnr_db; }, true},
+    {"luma_difference", "mean absolute difference of luma, 0..1", [](R r) -> O { return r.numbers.luma_difference; }, true},
+    {"frame_ms", "deciding and drawing", [](R r) -> O { return r.frame_ms(); }, false},
+    {"decide_ms", "deciding what to draw", [](R r) -> O { return r.decide_ms; }, false},
+    {"draw_ms", "submitting and waiting until it is drawn", [](R r) -> O { return r.draw_ms; }, false},
+    {"triangles", "submitted", [](R r) -> O { return double(r.counters.triangle_count); }, true},
+    {"vertex_references", "indices submitted", [](R r) -> O { return double(r.counters.vertex_reference_count); }, true},
+    {"draw_calls", "", [](R r) -> O { return double(r.counters.draw_call_count); }, true},
+    {"uploaded_bytes", "sent to the renderer", [](R r) -> O { return double(r.counters.uploaded_bytes); }, true},
+    {"tested", "places looked at to decide", [](R r) -> O { return double(r.counters.tested_count); }, true},
+    {"resident_bytes", "in the renderer's memory", [](R r) -> O { return double(r.counters.resident_bytes); }, true},
+    {"events", "sudden changes that the method knows of", [](R r) -> O { return double(r.counters.event_count); }, true},
+    {"predicted_error_px", "what the method promises of this frame", [](R r) -> O { return r.counters.predicted_error_px; },
+     true},
+}};
+
+}  // namespace
+
+std::span<const Figure> figures() {
+    return kFigures;
+}
+
+const Figure& figure(std::string_view name) {
+    auto found = std::find_if(kFigures.begin(), kFigures.end(), [&](const Figure& one) { return one.name == name; });
+    assert(found != kFigures.end());
+    return *found;
+}
+
+std::vector<double> values_of(const RunResult& run, const Figure& figure) {
+    std::vector<double> values;
+    for (const FrameRecord& frame : run.frames) {
+        if (std::optional<double> value = figure.of(frame)) values.push_back(*value);
+    }
+    return values;
+}
+
+Percentiles percentiles_of(const RunResult& run, std::string_view figure_name) {
+    return percentiles_of(values_of(run, figure(figure_name)));
+}
+
+std::vector<Gate> gates_of(const RunResult& run) {
+    std::vector<Gate> gates;
+    if (values_of(run, figure("hole_px")).empty()) return gates;
+    gates.push_back({"hole_px", percentiles_of(run, "hole_px").max, 0});
+    gates.push_back({"pop_index", run.pop.index, kMostPopIndex});
+    for (const auto& [name, value] : run.spec.settings) {
+        if (name == "error-px") gates.push_back({"predicted_error_px", percentiles_of(run, "predicted_error_px").max, value});
+    }
+    return gates;
+}
+
+bool is_at_floor(const RunResult& run, const RunResult& floor) {
+    return percentiles_of(run, "e_p99_flip").p99 <= kAtFloor * percentiles_of(floor, "e_p99_flip").p99;
+}
+
+}  // namespace overlook::measure

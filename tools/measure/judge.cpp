@@ -1,0 +1,72 @@
+#include "tools/measure/judge.h"
+
+#include <algorithm>
+#include <set>
+
+#include "tools/measure/numbers/flip.h"
+#include "tools/measure/numbers/silhouette.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr double kMostShownW = 0.25;  // luma; what the map of W shows as its brightest
+
+ImageRgb8 picture_of(const Frame& frame) {
+    return {frame.width, frame.height, frame.rgb};
+}
+
+void remember(WorstFrame& worst, uint32_t frame, double value, const Frame& test, const Frame& reference) {
+    worst.is_there = true;
+    worst.frame = frame;
+    worst.value = value;
+    worst.test = picture_of(test);
+    worst.reference = picture_of(reference);
+}
+
+// W of each tile over all of its pixels: where in the frame it changed.
+std::vector<float> map_of(const TemporalError& error, uint32_t width, uint32_t height) {
+    std::vector<float> map(size_t(width) * height);
+    for (size_t i = 0; i < map.size(); ++i) {
+        size_t column = i % width / kTilePx, row = i / width / kTilePx;
+        map[i] = std::min(1.0f, error.tiles[row * error.columns + column] / float(kMostShownW));
+    }
+    return map;
+}
+
+}  // namespace
+
+void judge_picture(const Frame& test, const Frame& reference, Numbers& numbers) {
+    numbers.psnr_db = psnr_db(rgb_of(test), rgb_of(reference));
+    numbers.luma_difference = luma_difference_mean(rgb_of(test), rgb_of(reference));
+    SilhouetteError outline = silhouette_error(test, reference);
+    numbers.s_p95_px = outline.p95_px;
+    numbers.s_max_px = outline.max_px;
+
+    std::set<uint32_t> things(reference.ids.begin(), reference.ids.end());
+    things.erase(kBackground);
+    double holes = 0;
+    for (uint32_t thing : things) holes += double(hole_pixels(test, reference, thing).count);
+    numbers.hole_count = holes;
+}
+
+void judge_e(const Frame& test, const Frame& reference, FrameRecord& record, WorstFrame& worst) {
+    FlipError error = flip(rgb_of(test), rgb_of(reference));
+    record.numbers.e_p99 = error.p99;
+    record.numbers.e_mean = error.mean;
+    if (worst.is_there && error.p99 <= worst.value) return;
+    remember(worst, record.frame, error.p99, test, reference);
+    worst.map = std::move(error.map);
+}
+
+TemporalError judge_w(const Motion& motion, const Frame& before, const Frame& now, const Frame& reference_before,
+                      const Frame& reference_now, FrameRecord& record, WorstFrame& worst) {
+    TemporalError error = temporal_error(motion, rgb_of(before), rgb_of(now), rgb_of(reference_before), rgb_of(reference_now));
+    error.frame = record.frame;
+    record.numbers.w = error.mean;
+    if (worst.is_there && error.mean <= worst.value) return error;
+    remember(worst, record.frame, error.mean, now, reference_now);
+    worst.map = map_of(error, now.width, now.height);
+    return error;
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,58 @@
+// What a method of Overlook has to offer to be measured beside others.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/gl/target.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::measure {
+
+// What one frame took: exact, and the same on every run.
+struct Counters {
+    uint64_t triangle_count = 0;          // submitted
+    uint64_t vertex_reference_count = 0;  // indices (or vertices, where there are none) submitted
+    uint64_t draw_call_count = 0;
+    uint64_t uploaded_bytes = 0;
+    uint64_t tested_count = 0;    // places looked at to decide
+    uint64_t resident_bytes = 0;  // in the renderer's memory while the frame is drawn
+    uint64_t event_count = 0;     // sudden changes that the method knows of: a new keyframe, a level exchanged at once
+    double predicted_error_px = 0;
+
+    bool operator==(const Counters&) const = default;
+};
+
+// One method with one setting. Frames come in the order of the flight, each once: first decide, then draw, then perhaps draw
+// again into other targets, which must give the same picture. A context must be current.
+class Method {
+  public:
+    virtual ~Method() = default;
+    // Settles what is drawn of this frame. camera: its size is the picture's. frame: from 0, one logical step apart.
+    virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
+    // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.
+    virtual Counters draw(const gl::Target& target) = 0;
+};
+
+// A method as it was asked for: "terrain@error-px=2@samples=4".
+struct MethodSpec {
+    std::string name;
+    std::string variant;                                   // "" = the default one
+    std::vector<std::pair<std::string, double>> settings;  // all that the method has, in its own order
+
+    bool operator==(const MethodSpec&) const = default;
+};
+
+// "terrain:variant@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
+std::string label_of(const MethodSpec& spec);
+
+// "terrain:variant": all runs of one curve share it.
+std::string family_of(const MethodSpec& spec);
+
+// The value of a setting that the method has.
+double setting(const MethodSpec& spec, const std::string& name);
+
+}  // namespace overlook::measure

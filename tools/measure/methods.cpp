@@ -1,0 +1,219 @@
+#include "tools/measure/methods.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "tools/measure/terrain_method.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr SettingKind kErrorPx{"error-px", 0.01, 1000, 1, false};
+constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
+constexpr std::array<SettingKind, 2> kTerrainSettings = {kErrorPx, kSamples};
+constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
+constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", {}, kTerrainSettings}, MethodKind{"full", {}, kFullSettings}};
+
+// A method as typed, with the settings that were given alone.
+struct Asked {
+    const MethodKind* kind = nullptr;
+    MethodSpec spec;
+    std::vector<bool> is_given;  // of each setting
+};
+
+// Letters to change, drop or add (Levenshtein 1966).
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (size_t i = 1; i <= a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            size_t kept = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({kept, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+// "; did you mean terrain?", or nothing if no name is near.
+template <class Kinds>
+std::string suggestion(std::string_view word, const Kinds& kinds) {
+    std::string_view nearest;
+    size_t least = std::max<size_t>(2, word.size() / 3) + 1;
+    for (const auto& kind : kinds) {
+        size_t distance = edit_distance(word, kind.name);
+        if (distance < least) {
+            least = distance;
+            nearest = kind.name;
+        }
+    }
+    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+std::string known_names() {
+    std::string names;
+    for (const MethodKind& kind : kKinds) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    return names;
+}
+
+std::optional<double> number_of(std::string_view text, const SettingKind& kind) {
+    double value = 0;
+    auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool is_number = problem == std::errc() && after == text.data() + text.size();
+    if (!is_number || !(value >= kind.least && value <= kind.most)) return std::nullopt;
+    if (kind.is_whole && value != std::floor(value)) return std::nullopt;
+    return value;
+}
+
+std::string wanted(const SettingKind& kind) {
+    return fmt::format("{} takes a {}number from {} to {}", kind.name, kind.is_whole ? "whole " : "", kind.least, kind.most);
+}
+
+size_t place_of(const MethodKind& kind, std::string_view setting_name) {
+    auto found = std::find_if(kind.settings.begin(), kind.settings.end(),
+                              [&](const SettingKind& setting_kind) { return setting_kind.name == setting_name; });
+    return size_t(found - kind.settings.begin());
+}
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        size_t end = std::min(text.find(at), text.size());
+        parts.push_back(text.substr(0, end));
+        if (end == text.size()) return parts;
+        text.remove_prefix(end + 1);
+    }
+}
+
+Result<void> take_setting(std::string_view text, std::string_view part, Asked& asked) {
+    std::string_view name = part.substr(0, part.find('='));
+    size_t place = place_of(*asked.kind, name);
+    if (place == asked.kind->settings.size()) {
+        return bad_command("--method {}: {} has no setting {}{}", text, asked.kind->name, name,
+                           suggestion(name, asked.kind->settings));
+    }
+    if (asked.is_given[place]) return bad_command("--method {}: {} is given twice", text, name);
+    const SettingKind& kind = asked.kind->settings[place];
+    std::optional<double> value = number_of(part.substr(std::min(name.size() + 1, part.size())), kind);
+    if (!value) return bad_command("--method {}: {}", text, wanted(kind));
+    asked.spec.settings[place].second = *value;
+    asked.is_given[place] = true;
+    return {};
+}
+
+Result<Asked> asked_from(std::string_view text) {
+    std::vector<std::string_view> parts = split(text, '@');
+    size_t colon = parts[0].find(':');
+    std::string_view name = parts[0].substr(0, colon);
+    auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&](const MethodKind& known) { return known.name == name; });
+    if (kind == kKinds.end()) {
+        std::string near = suggestion(name, kKinds);
+        return bad_command("--method {}: there is no such method{} (known: {})", text, near, known_names());
+    }
+    Asked asked{&*kind, {std::string(name), "", {}}, std::vector<bool>(kind->settings.size())};
+    if (colon != std::string_view::npos) {
+        asked.spec.variant = parts[0].substr(colon + 1);
+        bool is_known = std::find(kind->variants.begin(), kind->variants.end(), asked.spec.variant) != kind->variants.end();
+        if (!is_known) return bad_command("--method {}: {} has no such variant", text, name);
+    }
+    for (const SettingKind& known : kind->settings) asked.spec.settings.emplace_back(known.name, known.otherwise);
+    for (size_t i = 1; i < parts.size(); ++i) {
+        if (Result<void> taken = take_setting(text, parts[i], asked); !taken) return tl::unexpected(taken.error());
+    }
+    return asked;
+}
+
+// Replaces each method that the sweep concerns by one a value.
+Result<std::vector<Asked>> swept(const std::vector<Asked>& methods, std::string_view sweep) {
+    size_t equals = sweep.find('=');
+    if (equals == std::string_view::npos) return bad_command("--sweep {}: setting=value,value,... is wanted", sweep);
+    std::string_view name = sweep.substr(0, equals);
+    std::vector<Asked> all;
+    bool concerns_any = false;
+    for (const Asked& method : methods) {
+        size_t place = place_of(*method.kind, name);
+        if (place == method.kind->settings.size() || method.is_given[place]) {
+            all.push_back(method);
+            continue;
+        }
+        concerns_any = true;
+        for (std::string_view text : split(sweep.substr(equals + 1), ',')) {
+            std::optional<double> value = number_of(text, method.kind->settings[place]);
+            if (!value) return bad_command("--sweep {}: {}", sweep, wanted(method.kind->settings[place]));
+            all.push_back(method);
+            all.back().spec.settings[place].second = *value;
+            all.back().is_given[place] = true;
+        }
+    }
+    if (!concerns_any) return bad_command("--sweep {}: none of the methods has a setting {} to sweep", sweep, name);
+    return all;
+}
+
+}  // namespace
+
+std::span<const MethodKind> method_kinds() {
+    return kKinds;
+}
+
+std::string family_of(const MethodSpec& spec) {
+    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+}
+
+std::string label_of(const MethodSpec& spec) {
+    std::string label = family_of(spec);
+    for (const auto& [name, value] : spec.settings) label += fmt::format("@{}={}", name, value);
+    return label;
+}
+
+double setting(const MethodSpec& spec, const std::string& name) {
+    auto found = std::find_if(spec.settings.begin(), spec.settings.end(), [&](const auto& one) { return one.first == name; });
+    assert(found != spec.settings.end());
+    return found->second;
+}
+
+Result<MethodSpec> parse_method(std::string_view text) {
+    Result<Asked> asked = asked_from(text);
+    if (!asked) return tl::unexpected(asked.error());
+    return asked->spec;
+}
+
+Result<std::vector<MethodSpec>> specs_from(const std::vector<std::string>& methods, const std::vector<std::string>& sweeps) {
+    std::vector<Asked> all;
+    for (const std::string& text : methods) {
+        Result<Asked> asked = asked_from(text);
+        if (!asked) return tl::unexpected(asked.error());
+        all.push_back(std::move(*asked));
+    }
+    for (const std::string& sweep : sweeps) {
+        Result<std::vector<Asked>> more = swept(all, sweep);
+        if (!more) return tl::unexpected(more.error());
+        all = std::move(*more);
+    }
+    std::vector<MethodSpec> specs;
+    for (const Asked& asked : all) {
+        if (std::find(specs.begin(), specs.end(), asked.spec) == specs.end()) specs.push_back(asked.spec);
+    }
+    return specs;
+}
+
+MethodSpec floor_spec(double samples) {
+    return {"full", "", {{"samples", samples}}};
+}
+
+bool is_floor(const MethodSpec& spec) {
+    return spec.name == "full" && spec.variant.empty();
+}
+
+std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
+    if (is_floor(spec)) return make_full_method(world);
+    assert(spec.name == "terrain");
+    return make_terrain_method(world, setting(spec, "error-px"));
+}
+
+}  // namespace overlook::measure

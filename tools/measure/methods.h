@@ -1,0 +1,48 @@
+// The methods that can be measured, by name.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/result.h"
+#include "tools/measure/method.h"
+#include "tools/measure/world.h"
+
+namespace overlook::measure {
+
+struct SettingKind {
+    std::string_view name;
+    double least = 0, most = 0, otherwise = 0;
+    bool is_whole = false;
+};
+struct MethodKind {
+    std::string_view name;
+    std::span<const std::string_view> variants;  // besides the default one
+    std::span<const SettingKind> settings;
+};
+std::span<const MethodKind> method_kinds();
+
+// Reads "NAME[:variant][@setting=value]...". Fails with Exit::bad_command:
+//   "--method terain: there is no such method; did you mean terrain? (known: terrain, full)"
+//   "--method terrain:soft: terrain has no such variant"
+//   "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?"
+//   "--method terrain@error-px=x: error-px takes a number from 0.01 to 1000"
+Result<MethodSpec> parse_method(std::string_view text);
+
+// Multiplies the methods by sweeps, each "setting=value,value,...": of a method that has the setting and was not given it, one
+// run a value. The order is the methods', then the values'; what comes out twice is kept once. Fails with Exit::bad_command:
+//   "--sweep error-px: setting=value,value,... is wanted"
+//   "--sweep speed=1,2: none of the methods has a setting speed to sweep"
+Result<std::vector<MethodSpec>> specs_from(const std::vector<std::string>& methods, const std::vector<std::string>& sweeps);
+
+// Full geometry at so many samples a pixel: what no method that draws geometry can be better than.
+MethodSpec floor_spec(double samples);
+bool is_floor(const MethodSpec& spec);
+
+// The spec must come from above; the world must outlive the method.
+std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world);
+
+}  // namespace overlook::measure

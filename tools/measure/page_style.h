@@ -1,0 +1,42 @@
+// How the page looks.
+#pragma once
+
+namespace overlook::measure {
+
+inline constexpr char kPageStyle[] = R"(:root { color-scheme: light; }
+* { box-sizing: border-box; }
+body { margin: 0; background: #ffffff; color: #1c2126; font: 16px/1.5 system-ui, "DejaVu Sans", Verdana, sans-serif; }
+main { max-width: 1160px; margin: 0 auto; padding: 16px 20px 48px; }
+h1 { font-size: 1.7rem; line-height: 1.25; margin: 0.6em 0 0.2em; overflow-wrap: anywhere; }
+h2 { font-size: 1.3rem; margin: 2em 0 0.6em; padding-top: 0.5em; border-top: 1px solid #cfd6dc; }
+h3 { font-size: 1.05rem; margin: 0.8em 0 0.4em; overflow-wrap: anywhere; }
+pre { background: #f1f4f6; padding: 10px 12px; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 0.9rem; }
+code { color: #59636c; }
+a { color: #005a92; }
+table { border-collapse: collapse; font-size: 0.93rem; }
+.facts th { text-align: left; font-weight: 600; padding: 3px 18px 3px 0; vertical-align: top; }
+.facts td { padding: 3px 0; overflow-wrap: anywhere; }
+.wide { overflow-x: auto; }
+.runs th, .runs td { padding: 5px 9px; border-bottom: 1px solid #e1e6ea; text-align: right; }
+.runs td { font-variant-numeric: tabular-nums; white-space: nowrap; }
+.runs thead th { vertical-align: bottom; border-bottom: 2px solid #8a949c; }
+.runs th:first-child { text-align: left; position: sticky; left: 0; background: #ffffff; overflow-wrap: anywhere; min-width: 8.5em; }
+.runs td:last-child { text-align: left; }
+.runs .floor td, .runs .floor th { background: #eceff1; }
+.software { background: #fff1c9; padding: 1px 7px; white-space: nowrap; font-weight: 600; }
+.broken { color: #9c2f00; }
+.note { color: #4a545c; font-size: 0.93rem; }
+figure { margin: 0 0 1.6em; }
+figure img { display: block; width: 100%; height: auto; }
+figcaption { color: #333c44; font-size: 0.95rem; }
+.three { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
+.three figure { margin: 0 0 0.6em; }
+section { margin-bottom: 1.6em; }
+@media (max-width: 640px) {
+  main { padding: 8px 12px 32px; }
+  .three { grid-template-columns: 1fr; }
+  .facts th, .facts td { display: block; padding: 2px 0 0; }
+}
+)";
+
+}  // namespace overlook::measure

@@ -1,0 +1,45 @@
+// The reference: what a frame would look like with all the time in the world.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runtime/gl/context.h"
+#include "tools/measure/frame.h"
+#include "tools/measure/method.h"
+#include "tools/measure/world.h"
+
+namespace overlook::measure {
+
+constexpr uint32_t kSupersampling = 4;  // a side: 16 samples a pixel
+
+// Draws references: full geometry at 4 x 4 times the pixels, averaged in linear light, with the look of the methods and depth and
+// ids of the pixels' middles. With a folder given, each frame is kept there under a name made from the content of all that
+// decides it (scene, camera to the bit, size, shaders, renderer, version), and is taken from there the next time.
+class ReferenceRenderer {
+  public:
+    // cache_folder: made already; empty = keep nothing. The world must be uploaded and outlive this. Fails with Exit::impossible
+    // if the renderer cannot draw pictures 4 times as wide and high:
+    // "the reference is drawn at 4 times the size: pictures of 20000 x 80 pixels are too large for this renderer (16384 at
+    // most)".
+    static Result<ReferenceRenderer> make(World& world, const gl::Renderer& renderer, uint32_t width_px, uint32_t height_px,
+                                          std::string cache_folder);
+
+    // A kept frame that does not have its right checksum is drawn anew and replaced. Fails with Exit::cannot_write.
+    Result<Frame> frame(const view::Camera& camera);
+
+    uint64_t drawn_count() const { return drawn_count_; }      // frames drawn
+    uint64_t kept_count() const { return kept_count_; }        // frames taken from the folder
+    uint64_t damaged_count() const { return damaged_count_; }  // kept frames that were refused
+
+  private:
+    ReferenceRenderer(gl::Target large, gl::Target middle) : large_(std::move(large)), middle_(std::move(middle)) {}
+    Frame drawn(const view::Camera& camera);
+
+    gl::Target large_, middle_;
+    std::unique_ptr<Method> full_;
+    std::string cache_folder_, identity_;
+    uint64_t drawn_count_ = 0, kept_count_ = 0, damaged_count_ = 0;
+};
+
+}  // namespace overlook::measure

@@ -1,0 +1,199 @@
+#include "tools/measure/run.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+#include "runtime/gl/timer.h"
+#include "tools/measure/capture.h"
+#include "tools/measure/judge.h"
+#include "tools/measure/methods.h"
+
+namespace overlook::measure {
+namespace {
+
+// A run while it is under way.
+struct Running {
+    std::unique_ptr<Method> method;
+    const gl::Target* target = nullptr;
+    Frame before, now;
+    std::vector<TemporalError> temporal;
+};
+
+uint32_t samples_of(const MethodSpec& spec) {
+    return uint32_t(setting(spec, "samples"));
+}
+
+class Field {
+  public:
+    static Result<Field> make(World& world, const Course& course) {
+        Field field;
+        const view::Camera& camera = course.cameras.front();
+        if (Result<void> added = field.add_target(camera, 1); !added) return tl::unexpected(added.error());
+        for (const MethodSpec& spec : course.specs) {
+            if (Result<void> added = field.add_target(camera, samples_of(spec)); !added) return tl::unexpected(added.error());
+        }
+        for (const MethodSpec& spec : course.specs) field.add_run(spec, world);
+        for (size_t i = 0; i < course.specs.size(); ++i) field.warm_up(i, world, camera);
+        return field;
+    }
+
+    // Decides and draws one frame of one run; leaves the picture in its target.
+    FrameRecord draw(size_t run, const view::Camera& camera, uint32_t frame) {
+        Running& running = runs[run];
+        FrameRecord record;
+        record.frame = frame;
+        gl::Timer deciding;
+        running.method->decide(camera, frame);
+        record.decide_ms = deciding.elapsed_ms();
+        gl::Timer drawing;
+        record.counters = running.method->draw(*running.target);
+        record.draw_ms = drawing.finished_ms();
+        return record;
+    }
+
+    // Takes the picture that draw() left.
+    void capture(size_t run, const view::Camera& camera) {
+        Running& running = runs[run];
+        const gl::Target& middle = targets.at(1);
+        if (running.target != &middle) running.method->draw(middle);
+        running.now = captured(*running.target, middle, camera);
+    }
+
+    std::vector<Running> runs;
+    std::vector<RunResult> results;
+    std::map<uint32_t, gl::Target> targets;  // by samples a pixel
+
+  private:
+    Result<void> add_target(const view::Camera& camera, uint32_t samples) {
+        if (targets.contains(samples)) return {};
+        Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, samples);
+        if (!target) return tl::unexpected(target.error());
+        targets.emplace(samples, std::move(*target));
+        return {};
+    }
+
+    void add_run(const MethodSpec& spec, World& world) {
+        Running running;
+        running.method = make_method(spec, world);
+        running.target = &targets.at(samples_of(spec));
+        runs.push_back(std::move(running));
+        RunResult result;
+        result.spec = spec;
+        result.label = label_of(spec);
+        results.push_back(std::move(result));
+    }
+
+    // With a method of its own, so that none begins the flight with a history.
+    void warm_up(size_t run, World& world, const view::Camera& camera) {
+        std::unique_ptr<Method> method = make_method(results[run].spec, world);
+        method->decide(camera, 0);
+        method->draw(*runs[run].target);
+        glFinish();
+    }
+};
+
+void find_floors(std::vector<RunResult>& results) {
+    for (RunResult& result : results) {
+        MethodSpec floor = floor_spec(setting(result.spec, "samples"));
+        auto found = std::find_if(results.begin(), results.end(), [&](const RunResult& one) { return one.spec == floor; });
+        assert(found != results.end());
+        result.floor = size_t(found - results.begin());
+    }
+}
+
+// FLIP of a frame that may have been taken already.
+void take_e(const Frame& test, const Frame& reference, FrameRecord& record, WorstFrame& worst) {
+    if (!record.numbers.e_p99) judge_e(test, reference, record, worst);
+}
+
+// Measures one frame of all runs. Frame 0 has none before it.
+class Judge {
+  public:
+    void judge(Field& field, uint32_t frame, Frame reference) {
+        bool has_event = std::any_of(field.results.begin(), field.results.end(),
+                                     [&](const RunResult& run) { return run.frames[frame].counters.event_count > 0; });
+        bool wants_e = frame % kFlipStep == 0 || has_event || had_event_;
+        std::optional<Motion> motion;
+        if (frame > 0) motion = motion_between(before_, reference);
+        for (size_t i = 0; i < field.runs.size(); ++i) {
+            Running& running = field.runs[i];
+            RunResult& result = field.results[i];
+            FrameRecord& record = result.frames[frame];
+            judge_picture(running.now, reference, record.numbers);
+            if (wants_e) take_e(running.now, reference, record, result.worst_e);
+            if (has_event && frame > 0) take_e(running.before, before_, result.frames[frame - 1], result.worst_e);
+            if (motion) {
+                running.temporal.push_back(
+                    judge_w(*motion, running.before, running.now, before_, reference, record, result.worst_w));
+            }
+            std::swap(running.before, running.now);
+        }
+        had_event_ = has_event;
+        before_ = std::move(reference);
+    }
+
+  private:
+    static constexpr uint32_t kFlipStep = 10;
+    Frame before_;  // the reference's
+    bool had_event_ = false;
+};
+
+void take_pop_indices(Field& field) {
+    for (size_t i = 0; i < field.runs.size(); ++i) {
+        field.results[i].pop = pop_index(field.runs[i].temporal, field.runs[field.results[i].floor].temporal);
+    }
+}
+
+}  // namespace
+
+void add_floors(std::vector<MethodSpec>& specs) {
+    for (size_t i = 0, count = specs.size(); i < count; ++i) {
+        MethodSpec floor = floor_spec(setting(specs[i], "samples"));
+        if (std::find(specs.begin(), specs.end(), floor) == specs.end()) specs.push_back(floor);
+    }
+}
+
+Result<CourseResult> run_course(World& world, const Course& course, const gl::Renderer& renderer, const std::string& cache_folder,
+                                const std::function<void(double)>& done) {
+    const view::Camera& first = course.cameras.front();
+    Result<ReferenceRenderer> reference = ReferenceRenderer::make(world, renderer, first.width_px, first.height_px, cache_folder);
+    if (!reference) return tl::unexpected(reference.error());
+    Result<Field> field = Field::make(world, course);
+    if (!field) return tl::unexpected(field.error());
+    find_floors(field->results);
+
+    Judge judge;
+    for (uint32_t frame = 0; frame < course.cameras.size(); ++frame) {
+        const view::Camera& camera = course.cameras[frame];
+        Result<Frame> truth = reference->frame(camera);
+        if (!truth) return tl::unexpected(truth.error());
+        for (size_t i = 0; i < course.specs.size(); ++i) {
+            size_t run = (frame + i) % course.specs.size();
+            field->results[run].frames.push_back(field->draw(run, camera, frame));
+            field->capture(run, camera);
+        }
+        judge.judge(*field, frame, std::move(*truth));
+        done(double(frame + 1) / double(course.cameras.size()));
+    }
+    take_pop_indices(*field);
+    return CourseResult{std::move(field->results), reference->drawn_count(), reference->kept_count(), reference->damaged_count()};
+}
+
+Result<CourseResult> run_by_wall_clock(World& world, const Course& course, const std::function<void(double)>& done) {
+    Result<Field> field = Field::make(world, course);
+    if (!field) return tl::unexpected(field.error());
+    find_floors(field->results);
+    double last_frame = double(course.cameras.size() - 1);
+    for (size_t run = 0; run < course.specs.size(); ++run) {
+        gl::Timer clock;
+        for (double at = 0; at <= last_frame; at = clock.elapsed_ms() / 1000 / course.step_s) {
+            uint32_t frame = uint32_t(at);
+            field->results[run].frames.push_back(field->draw(run, course.cameras[frame], frame));
+        }
+        done(double(run + 1) / double(course.specs.size()));
+    }
+    return CourseResult{std::move(field->results), 0, 0, 0};
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,82 @@
+// A run: every method over every frame of a flight, side by side, measured against the reference.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/image.h"
+#include "tools/measure/method.h"
+#include "tools/measure/numbers/temporal.h"
+#include "tools/measure/reference.h"
+#include "tools/measure/world.h"
+
+namespace overlook::measure {
+
+// What is measured.
+struct Course {
+    std::vector<MethodSpec> specs;      // each one once; their floors among them
+    std::vector<view::Camera> cameras;  // one a frame, all of the same size
+    double step_s = 1.0 / 60;           // of the logical clock, from frame to frame
+};
+
+// What a frame was beside the reference. Empty where it was not taken.
+struct Numbers {
+    std::optional<double> e_p99, e_mean;  // LDR-FLIP over the pixels: every tenth frame and round events
+    std::optional<double> w;              // from the second frame on
+    std::optional<double> s_p95_px, s_max_px;
+    std::optional<double> hole_count;
+    std::optional<double> psnr_db, luma_difference;
+};
+
+struct FrameRecord {
+    uint32_t frame = 0;
+    Counters counters;
+    double decide_ms = 0;
+    double draw_ms = 0;  // submitting and waiting until it is drawn
+    Numbers numbers;
+
+    double frame_ms() const { return decide_ms + draw_ms; }
+};
+
+// The frame of a run that a number likes least.
+struct WorstFrame {
+    bool is_there = false;
+    uint32_t frame = 0;
+    double value = 0;
+    ImageRgb8 test, reference;
+    std::vector<float> map;  // [height, width] of the error, 0..1
+};
+
+struct RunResult {
+    MethodSpec spec;
+    std::string label;
+    size_t floor = 0;  // which run is its floor: full geometry at the same samples a pixel
+    std::vector<FrameRecord> frames;
+    PopIndex pop;
+    WorstFrame worst_e, worst_w;
+};
+
+struct CourseResult {
+    std::vector<RunResult> runs;  // as in Course::specs
+    uint64_t references_drawn = 0, references_kept = 0, references_damaged = 0;
+};
+
+// Adds to specs the floor of each that has none yet.
+void add_floors(std::vector<MethodSpec>& specs);
+
+// Draws and measures on the logical clock: frame by frame, every run once each, beginning with another run every frame, so that
+// a drift of the machine hits all alike. Every run is drawn once before the first frame, which does not count. Times are of the
+// steady clock from deciding until everything is drawn; reading back, depth and the numbers are outside them. Keeps two frames of
+// each run in memory. The pictures, the counters and the numbers are the same every time; the times are not.
+// done: told the share of work done, 0..1. Fails with Exit::impossible (targets) and Exit::cannot_write (kept references).
+Result<CourseResult> run_course(World& world, const Course& course, const gl::Renderer& renderer, const std::string& cache_folder,
+                                const std::function<void(double)>& done);
+
+// Flies by the wall clock instead: each run alone, the camera where the flight is at that moment, until its end. Frame times and
+// counters only; which frames are drawn depends on the machine.
+Result<CourseResult> run_by_wall_clock(World& world, const Course& course, const std::function<void(double)>& done);
+
+}  // namespace overlook::measure

@@ -1,0 +1,66 @@
+#include "tools/measure/terrain_method.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr double kSplitAll_m = -1;  // below every error, 0 as well
+constexpr uint64_t kDrawCalls = 2;  // sky and ground
+
+Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cut, const view::Camera& camera) {
+    world.drawing->draw(target, cut, camera, world.look);
+    Counters counters;
+    counters.triangle_count = cut.triangle_count();
+    counters.vertex_reference_count = cut.indices.size();
+    counters.draw_call_count = kDrawCalls;
+    counters.uploaded_bytes = world.drawing->uploaded_bytes();
+    counters.tested_count = cut.tested_count;
+    counters.resident_bytes = world.resident_bytes + counters.uploaded_bytes;
+    counters.predicted_error_px = cut.predicted_error_px;
+    return counters;
+}
+
+class Refined : public Method {
+  public:
+    Refined(World& world, double error_px) : world_(world), error_px_(error_px) {}
+
+    void decide(const view::Camera& camera, uint32_t) override {
+        camera_ = camera;
+        world_.refiner->cut_by_pixels(camera, error_px_, cut_);
+    }
+    Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
+
+  private:
+    World& world_;
+    double error_px_;
+    view::Camera camera_;
+    terrain::Cut cut_;
+};
+
+class Full : public Method {
+  public:
+    explicit Full(World& world) : world_(world) {
+        world.refiner->cut_by_metres(kSplitAll_m, cut_);
+        cut_.tested_count = 0;  // nothing is decided from frame to frame
+        cut_.predicted_error_px = 0;
+    }
+
+    void decide(const view::Camera& camera, uint32_t) override { camera_ = camera; }
+    Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
+
+  private:
+    World& world_;
+    view::Camera camera_;
+    terrain::Cut cut_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> make_terrain_method(World& world, double error_px) {
+    return std::make_unique<Refined>(world, error_px);
+}
+
+std::unique_ptr<Method> make_full_method(World& world) {
+    return std::make_unique<Full>(world);
+}
+
+}  // namespace overlook::measure

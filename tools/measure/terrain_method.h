@@ -1,0 +1,17 @@
+// The terrain's methods: refined to a promised error in pixels, and everything at full detail.
+#pragma once
+
+#include <memory>
+
+#include "tools/measure/method.h"
+#include "tools/measure/world.h"
+
+namespace overlook::measure {
+
+// The coarsest cut whose bound stays under error_px (runtime/terrain/refine.h).
+std::unique_ptr<Method> make_terrain_method(World& world, double error_px);
+
+// Every triangle of the raster, whether in view or not.
+std::unique_ptr<Method> make_full_method(World& world);
+
+}  // namespace overlook::measure
