@@ -8,6 +8,7 @@
 #include "tests/tools/synthetic_dem.h"
 #include "tools/bake/terrain.h"
 #include "tools/measure/honesty/terrain_honesty.h"
+#include "tools/measure/numbers/honesty.h"
 
 namespace overlook::measure {
 namespace {
@@ -32,11 +33,11 @@ view::Camera random_camera(const terrain::Terrain& terrain, double lowest_m, dou
     return camera;
 }
 
-Honesty honesty_of(const terrain::Terrain& terrain, int cameras, double morph) {
+Honesty honesty_from_cameras(const terrain::Terrain& terrain, int cameras, double morph) {
     terrain::Refiner refiner(terrain);
     terrain::Cut cut;
     cut.wants_codes = true;
-    HonestyTally tally;
+    PromiseTally tally;
     std::vector<float> predicted_px, measured_px;
     for (int seed = 0; seed < cameras; ++seed) {
         view::Camera camera = random_camera(terrain, refiner.lowest_m(), refiner.highest_m(), uint64_t(seed));
@@ -46,41 +47,42 @@ Honesty honesty_of(const terrain::Terrain& terrain, int cameras, double morph) {
         measure_triangles(terrain, cut, camera, measured_px);
         tally.add(predicted_px, measured_px);
     }
-    return tally.result();
+    return honesty_of(tally.predicted_px, tally.measured_px);
 }
 
 void expect_honest(const Honesty& honesty) {
-    EXPECT_EQ(honesty.broken_count, 0u);
-    EXPECT_GT(honesty.rated_count, 10000u);
-    EXPECT_LE(honesty.greatest_share, 1 + 1e-6);
-    EXPECT_GE(honesty.median_share, 0.3);
-    ::testing::Test::RecordProperty("greatest_share", std::to_string(honesty.greatest_share));
-    ::testing::Test::RecordProperty("median_share", std::to_string(honesty.median_share));
+    EXPECT_TRUE(is_honest(honesty));
+    EXPECT_EQ(honesty.above_prediction, 0u);
+    EXPECT_GT(honesty.count - honesty.exact, 10000u);
+    EXPECT_GE(honesty.ratio_median, 0.3);
+    ::testing::Test::RecordProperty("greatest_share", std::to_string(honesty.ratio_max));
+    ::testing::Test::RecordProperty("median_share", std::to_string(honesty.ratio_median));
 }
 
 TEST(TerrainHonesty, IsKeptOnHillsWithVoids) {
-    expect_honest(honesty_of(baked(test::make_hills(257, 200, 31, 0.01)), 150, 0));
+    expect_honest(honesty_from_cameras(baked(test::make_hills(257, 200, 31, 0.01)), 150, 0));
 }
 
 TEST(TerrainHonesty, IsKeptWhileMorphing) {
-    Honesty honesty = honesty_of(baked(test::make_hills(257, 200, 31, 0.01)), 150, 0.5);
-    EXPECT_EQ(honesty.broken_count, 0u);
-    EXPECT_GT(honesty.rated_count, 10000u);
+    Honesty honesty = honesty_from_cameras(baked(test::make_hills(257, 200, 31, 0.01)), 150, 0.5);
+    EXPECT_EQ(honesty.above_prediction, 0u);
+    EXPECT_GT(honesty.count - honesty.exact, 10000u);
 }
 
 // The same numbers must be able to fail.
 TEST(TerrainHonesty, IsBrokenByAnErrorTableThatPromisesTooMuch) {
     terrain::Terrain terrain = baked(test::make_hills(129, 129, 31));
     for (size_t code = 1; code < terrain::kMustSplit; ++code) terrain.error_m[code] *= 0.4f;
-    Honesty honesty = honesty_of(terrain, 20, 0);
-    EXPECT_GT(honesty.broken_count, 100u);
-    EXPECT_GT(honesty.greatest_share, 1.5);
+    Honesty honesty = honesty_from_cameras(terrain, 20, 0);
+    EXPECT_FALSE(is_honest(honesty));
+    EXPECT_GT(honesty.above_prediction, 100u);
+    EXPECT_GT(honesty.ratio_max, 1.5);
 }
 
 TEST(TerrainHonesty, OfAnIdlePromiseIsSeenInTheMedian) {
     terrain::Terrain terrain = baked(test::make_hills(129, 129, 31));
     for (size_t code = 1; code < terrain::kMustSplit; ++code) terrain.error_m[code] *= 5;
-    EXPECT_LT(honesty_of(terrain, 20, 0).median_share, 0.3);
+    EXPECT_FALSE(is_honest(honesty_from_cameras(terrain, 20, 0)));
 }
 
 class TerrainHonestyOf : public testing::TestWithParam<const char*> {};
@@ -93,7 +95,7 @@ TEST_P(TerrainHonestyOf, IsKeptFromEveryCamera) {
     options.window = dem::Window{100, 60, 513, 513};
     auto dem = dem::open(std::string(folder) + "/dem/" + GetParam(), options);
     ASSERT_TRUE(dem.has_value()) << dem.error().message;
-    expect_honest(honesty_of(baked(*dem), 334, 0));
+    expect_honest(honesty_from_cameras(baked(*dem), 334, 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Dems, TerrainHonestyOf,

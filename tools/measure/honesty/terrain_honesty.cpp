@@ -11,8 +11,6 @@ namespace overlook::measure {
 namespace {
 
 constexpr size_t kTrianglesAtATime = 1024;
-// Heights reach the card as floats; what projecting in double can round away is far below this.
-constexpr double kScreenRounding_px = 1e-6;
 
 struct Corner {
     int64_t x, y;
@@ -96,28 +94,12 @@ void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut,
     });
 }
 
-void HonestyTally::add(const std::vector<float>& predicted_px, const std::vector<float>& measured_px) {
-    for (size_t i = 0; i < predicted_px.size(); ++i) {
-        double predicted = double(predicted_px[i]), measured = double(measured_px[i]);
-        if (measured == kNotSeen) continue;
-        ++sums_.triangle_count;
-        sums_.broken_count += measured > predicted + kScreenRounding_px;
-        if (predicted <= 0) continue;
-        double share = measured / predicted;
-        sums_.greatest_share = std::max(sums_.greatest_share, share);
-        shares_.push_back(float(share));
+void PromiseTally::add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px) {
+    for (size_t i = 0; i < predicted_of_cut_px.size(); ++i) {
+        if (double(measured_of_cut_px[i]) == kNotSeen) continue;
+        predicted_px.push_back(predicted_of_cut_px[i]);
+        measured_px.push_back(measured_of_cut_px[i]);
     }
-}
-
-Honesty HonestyTally::result() const {
-    Honesty honesty = sums_;
-    honesty.rated_count = shares_.size();
-    if (shares_.empty()) return honesty;
-    std::vector<float> shares = shares_;
-    auto middle = shares.begin() + ptrdiff_t(shares.size() / 2);
-    std::nth_element(shares.begin(), middle, shares.end());
-    honesty.median_share = double(*middle);
-    return honesty;
 }
 
 }  // namespace overlook::measure

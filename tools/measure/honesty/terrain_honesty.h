@@ -16,23 +16,10 @@ constexpr double kNotSeen = -1;
 void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera,
                        std::vector<float>& measured_px);
 
-struct Honesty {
-    uint64_t triangle_count = 0;  // seen
-    uint64_t broken_count = 0;    // of them, measured above predicted
-    uint64_t rated_count = 0;     // of them, predicted above 0
-    double greatest_share = 0;    // measured / predicted, over those rated
-    double median_share = 0;      // likewise
-};
-
-// Adds one cut's triangles to a tally and says what it comes to.
-class HonestyTally {
-  public:
-    void add(const std::vector<float>& predicted_px, const std::vector<float>& measured_px);
-    Honesty result() const;
-
-  private:
-    Honesty sums_;
-    std::vector<float> shares_;
+// Adds one cut's triangles, those seen, to what numbers/honesty.h judges.
+struct PromiseTally {
+    std::vector<float> predicted_px, measured_px;
+    void add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px);
 };
 
 }  // namespace overlook::measure
