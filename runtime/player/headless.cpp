@@ -30,10 +30,12 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     settle(plan, scene);
     uint32_t frame_count = std::max(1u, plan.options.frames);
     std::vector<FrameRecord> records;
+    view::ErrorController controller(budget_of(plan.options, plan.options.error_px));
     command::Progress progress(common, "drawing");
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
         view::Camera camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
-        records.push_back(scene.draw(*target, camera, plan.options.error_px, plan.draw));
+        records.push_back(scene.draw(*target, camera, controller.error_px(), plan.options.morph, plan.draw));
+        controller.frame_done(cost_of(plan.options, records.back()));
         if (Result<void> written = write_picture(plan, *target, frame, frame + 1 == frame_count); !written) return written;
         progress.set(double(frame + 1) / frame_count);
     }

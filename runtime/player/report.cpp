@@ -35,6 +35,7 @@ Json frame_json(const FrameRecord& frame) {
             {"refine_ms", frame.refine_ms},
             {"draw_ms", frame.draw_ms},
             {"uploaded_bytes", frame.uploaded_bytes},
+            {"asked_error_px", frame.asked_error_px},
             {"predicted_error_px", frame.predicted_error_px}};
 }
 
@@ -64,6 +65,7 @@ std::string report_json(const Plan& plan, const gl::Renderer& renderer, const st
         {"height_px", plan.height_px},
         {"samples", plan.options.samples},
         {"error_px", plan.options.error_px},
+        {"morph", plan.options.morph},
         {"summary", summaries(frames)},
         {"frames", Json::array()},
     };

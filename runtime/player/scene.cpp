@@ -70,13 +70,22 @@ Result<void> Scene::upload() {
     return {};
 }
 
-FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, double error_px,
+view::ErrorBudget budget_of(const Options& options, double least_error_px) {
+    if (options.triangles > 0) return {double(options.triangles), least_error_px, false};
+    return {options.frame_ms, least_error_px, true};
+}
+
+double cost_of(const Options& options, const FrameRecord& frame) {
+    return options.triangles > 0 ? double(frame.triangle_count) : frame.refine_ms + frame.draw_ms;
+}
+
+FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, double error_px, double morph,
                         const terrain::DrawOptions& options) {
     assert(drawing_.has_value());
     FrameRecord record;
     view::Camera local = view::camera_into(transform(), camera);
     gl::Timer refining;
-    refiner_->cut_by_pixels(local, error_px, cut_);
+    refiner_->cut_by_pixels(local, error_px, cut_, morph);
     record.refine_ms = refining.elapsed_ms();
 
     gl::Timer drawing;
@@ -86,6 +95,7 @@ FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, do
     record.triangle_count = cut_.triangle_count();
     record.void_rim_triangle_count = cut_.void_rim_triangle_count;
     record.tested_count = cut_.tested_count;
+    record.asked_error_px = error_px;
     record.predicted_error_px = cut_.predicted_error_px;
     record.uploaded_bytes = drawing_->uploaded_bytes();
     return record;

@@ -10,6 +10,7 @@
 #include "runtime/player/options.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
+#include "runtime/view/error_budget.h"
 
 namespace overlook::player {
 
@@ -20,9 +21,14 @@ struct FrameRecord {
     uint64_t tested_count = 0;
     uint64_t uploaded_bytes = 0;
     double refine_ms = 0;
-    double draw_ms = 0;  // submitting and waiting until it is drawn
+    double draw_ms = 0;         // submitting and waiting until it is drawn
+    double asked_error_px = 0;  // above --error-px where a budget forces it
     double predicted_error_px = 0;
 };
+
+// What --triangles or --frame-ms leave, and what a frame takes of it; least_error_px is asked where they leave enough.
+view::ErrorBudget budget_of(const Options& options, double least_error_px);
+double cost_of(const Options& options, const FrameRecord& frame);
 
 class Scene {
   public:
@@ -44,8 +50,9 @@ class Scene {
     const scene::Scene& described() const { return described_; }
     const scene::Transform& transform() const { return described_.layers.front().transform; }
 
-    // camera: in the scene's frame.
-    FrameRecord draw(const gl::Target& target, const view::Camera& camera, double error_px, const terrain::DrawOptions& options);
+    // camera: in the scene's frame. morph: as Refiner::cut_by_pixels.
+    FrameRecord draw(const gl::Target& target, const view::Camera& camera, double error_px, double morph,
+                     const terrain::DrawOptions& options);
 
   private:
     scene::Scene described_;

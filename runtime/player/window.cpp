@@ -198,7 +198,7 @@ void show(GLFWwindow* window, const gl::Target& target, const Flight& flight, co
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     target.show(target.width_px(), target.height_px());
     if (flight.shows_overlay) {
-        overlay.draw({&record, &renderer, flight.error_px, flight.flyer.speed_factor, target.width_px(), target.height_px(),
+        overlay.draw({&record, &renderer, record.asked_error_px, flight.flyer.speed_factor, target.width_px(), target.height_px(),
                       flight.recording.has_value()});
     }
     glfwSwapBuffers(window);
@@ -217,6 +217,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
     Flight flight;
     flight.camera = view::camera_at(plan.flight, 0, plan.base);
     flight.error_px = plan.options.error_px;
+    view::ErrorController controller(budget_of(plan.options, flight.error_px));
     flight.draw = plan.draw;
     std::optional<gl::Target> target;
     std::vector<FrameRecord> records;
@@ -242,7 +243,9 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         }
         flight.camera.width_px = target->width_px();
         flight.camera.height_px = target->height_px();
-        FrameRecord record = scene.draw(*target, flight.camera, flight.error_px, flight.draw);
+        if (events.error_presses != 0) controller.set_budget(budget_of(plan.options, flight.error_px));
+        FrameRecord record = scene.draw(*target, flight.camera, controller.error_px(), plan.options.morph, flight.draw);
+        controller.frame_done(cost_of(plan.options, record));
         show(window, *target, flight, record, renderer, overlay);
         if (events.take_picture) {
             if (Result<void> taken = take_picture(*target, common, flight); !taken) return taken;

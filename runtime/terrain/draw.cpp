@@ -61,11 +61,21 @@ Result<gl::Texture> make_texture(const ImageRgb8& image) {
     return texture;
 }
 
+// A buffer as a texture of one row, which a shader may read at any place. It follows the buffer when that is filled anew.
+gl::Texture view_of(GLuint buffer, GLenum format) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+    glTextureBuffer(id, format, buffer);
+    return gl::Texture(id);
+}
+
 }  // namespace
 
 Result<Drawing> Drawing::make(const Terrain& terrain) {
     assert(terrain.heights.size() == size_t(terrain.shape.width) * terrain.shape.height && !terrain.heights.empty());
-    if (terrain.heights.size() > std::numeric_limits<uint32_t>::max()) {
+    GLint most_samples = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_samples);
+    if (terrain.heights.size() > uint32_t(most_samples)) {
         return impossible("a raster of {} x {} samples is too large to draw at once", terrain.shape.width, terrain.shape.height);
     }
     Drawing made;
@@ -81,14 +91,14 @@ Result<Drawing> Drawing::make(const Terrain& terrain) {
     made.heights_ = gl::make_buffer(std::as_bytes(std::span(heights.samples)));
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain does not fit into the renderer's memory");
 
+    made.heights_view_ = view_of(made.heights_.id(), GL_R32F);
+    const Cut::Morph none{};
+    made.morphs_.fill(std::as_bytes(std::span(&none, 1)));
+    made.morphs_view_ = view_of(made.morphs_.id(), GL_RG32UI);
+
     made.vertices_ = gl::make_vertex_array();
     made.nothing_ = gl::make_vertex_array();
-    GLuint vertices = made.vertices_.id();
-    glVertexArrayVertexBuffer(vertices, 0, made.heights_.id(), 0, sizeof(float));
-    glVertexArrayAttribFormat(vertices, 0, 1, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(vertices, 0, 0);
-    glEnableVertexArrayAttrib(vertices, 0);
-    glVertexArrayElementBuffer(vertices, made.indices_.id());
+    glVertexArrayElementBuffer(made.vertices_.id(), made.indices_.id());
 
     made.has_texture_ = !terrain.texture.pixels.empty();
     if (made.has_texture_) {
@@ -130,6 +140,7 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
 
     glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
     glUniform1ui(program.at("width"), width_);
+    glUniform1ui(program.at("sample_count"), width_ * height_);
     glUniform2i(program.at("camera_sample"), GLint(whole_column), GLint(whole_row));
     glUniform2f(program.at("camera_rest"), float(column - whole_column), float(row - whole_row));
     glUniform2f(program.at("metres_per_cell"), float(metres_per_column_), float(-metres_per_row_));
@@ -161,6 +172,8 @@ void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, c
     program.use();
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
+    glBindTextureUnit(1, heights_view_.id());
+    glBindTextureUnit(2, morphs_view_.id());
     if (has_texture_) glBindTextureUnit(0, texture_.id());
     if (has_texture_ && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
         GLfloat most = 1;
@@ -176,7 +189,9 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     std::span<const uint32_t> indices = std::span(cut.indices).first(std::min(cut.indices.size(), most_indices));
     indices_.fill(std::as_bytes(indices));
     index_count_ = GLsizei(indices.size());
-    uploaded_bytes_ = indices.size_bytes();
+    static_assert(sizeof(Cut::Morph) == 8);
+    if (!cut.morphs.empty()) morphs_.fill(std::as_bytes(std::span(cut.morphs)));
+    uploaded_bytes_ = indices.size_bytes() + cut.morphs.size() * sizeof(Cut::Morph);
 
     target.bind();
     const GLfloat farthest = 0;

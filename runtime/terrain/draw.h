@@ -57,7 +57,8 @@ class Drawing {
     bool has_texture_ = false;
     gl::Buffer heights_;
     gl::VertexArray vertices_, nothing_;
-    gl::StreamBuffer indices_;
+    gl::StreamBuffer indices_, morphs_;
+    gl::Texture heights_view_, morphs_view_;  // the buffers as textures of one row
     GLsizei index_count_ = 0;
     gl::Texture texture_;
     gl::Program shaded_, wireframe_, sky_;

@@ -4,9 +4,12 @@
 
 namespace overlook::terrain::shaders {
 
-// A vertex is a raster sample: its number says where it lies, its one attribute how high.
+// A vertex is a raster sample, or from `sample_count` on a place in the list of those that morph: which sample, and how far above
+// its own height.
 inline constexpr char kTerrainVertex[] = R"(#version 450 core
-layout(location = 0) in float height_m;        // above the terrain's base
+layout(binding = 1) uniform samplerBuffer heights;   // of every sample above the terrain's base, metres
+layout(binding = 2) uniform usamplerBuffer morphs;   // sample, and the bits of its rise in metres
+uniform uint sample_count;
 uniform uint width;
 uniform ivec2 camera_sample;                   // whole cells of the camera's place, and what is left of it
 uniform vec2 camera_rest;
@@ -22,6 +25,13 @@ out Surface {
 
 void main() {
     uint id = uint(gl_VertexID);
+    float rise_m = 0.0;
+    if (id >= sample_count) {
+        uvec2 morph = texelFetch(morphs, int(id - sample_count)).xy;
+        id = morph.x;
+        rise_m = uintBitsToFloat(morph.y);
+    }
+    float height_m = texelFetch(heights, int(id)).r + rise_m;
     ivec2 cell = ivec2(id % width, id / width);
     vec2 cells_away = vec2(cell - camera_sample) - camera_rest;
     surface.relative_m = vec3(cells_away * metres_per_cell, height_m - camera_height_m);

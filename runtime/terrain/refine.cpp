@@ -20,7 +20,8 @@ struct Piece {
     int level;
     bool is_square;
     bool parent_covers_void;
-    uint8_t planes;  // of the view, still to be tested
+    uint8_t planes;   // of the view, still to be tested
+    double rises[3];  // of apex, left and right over their samples' own heights, in steps; 0 but for those that morph
 };
 
 // Splits by the stored error alone.
@@ -28,17 +29,17 @@ struct MetreTest {
     const HeightBounds& bounds;
     int greatest_kept_code;
 
-    Verdict operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t&, double&) const {
-        if (code == kMustSplit && is_square && bounds.of_square(v.x, v.y, level).is_empty()) return Verdict::leave_out;
-        return code > greatest_kept_code ? Verdict::split : Verdict::keep;
+    Answer operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t&, double&) const {
+        if (code == kMustSplit && is_square && bounds.of_square(v.x, v.y, level).is_empty()) return {Verdict::leave_out};
+        return {code > greatest_kept_code ? Verdict::split : Verdict::keep};
     }
 };
 
 template <class Test>
 class Walk {
   public:
-    Walk(const Terrain& terrain, const Test& test, Cut::Part& part)
-        : terrain_(terrain), shape_(terrain.shape), test_(test), part_(part) {
+    Walk(const Terrain& terrain, const Test& test, bool wants_codes, Cut::Part& part)
+        : terrain_(terrain), shape_(terrain.shape), test_(test), wants_codes_(wants_codes), part_(part) {
         for (uint32_t level = 0; level < shape_.root_log2; ++level) columns_[level] = level_grid(shape_, level).columns;
     }
 
@@ -54,13 +55,15 @@ class Walk {
         uint8_t code = terrain_.codes[level][size_t(v.y >> level) * columns_[level] + (v.x >> level)];
         uint8_t planes = piece.planes;
         ++part_.tested_count;
-        Verdict verdict = test_(v, level, piece.is_square, code, planes, part_.predicted_squared);
-        if (verdict == Verdict::leave_out) return;
-        if (verdict == Verdict::keep) return emit(piece);
+        Answer answer = test_(v, level, piece.is_square, code, planes, part_.predicted_squared);
+        if (answer.verdict == Verdict::leave_out) return;
+        if (answer.verdict == Verdict::keep) return emit(piece, code);
         int next = piece.is_square ? piece.level : piece.level - 1;
         bool covers_void = code == kMustSplit;
-        descend(Piece{{v, t.apex, t.left}, next, !piece.is_square, covers_void, planes}, depth - 1, later);
-        descend(Piece{{v, t.right, t.apex}, next, !piece.is_square, covers_void, planes}, depth - 1, later);
+        const double* r = piece.rises;
+        double rise = answer.share < 1 ? rise_of(v, piece, answer.share) : 0;
+        descend(Piece{{v, t.apex, t.left}, next, !piece.is_square, covers_void, planes, {rise, r[0], r[1]}}, depth - 1, later);
+        descend(Piece{{v, t.right, t.apex}, next, !piece.is_square, covers_void, planes, {rise, r[2], r[0]}}, depth - 1, later);
     }
     void descend(const Piece& piece) {
         descend(piece, std::numeric_limits<int>::max(), [](const Piece&) {});
@@ -75,24 +78,50 @@ class Walk {
         GridPoint sample = sample_of(shape_, p);
         return sample.y * shape_.width + sample.x;
     }
-    void emit(const Piece& piece) {
+    // h(v) - z(v) of a vertex that has come `share` of its way, from the rises of the ends of its edge.
+    double rise_of(GridPoint v, const Piece& piece, double share) const {
+        double left = terrain_.heights[index_of(piece.triangle.left)], right = terrain_.heights[index_of(piece.triangle.right)];
+        double own = terrain_.heights[index_of(v)];
+        return (piece.rises[1] + piece.rises[2]) / 2 + (1 - share) * ((left + right) / 2 - own);
+    }
+
+    uint32_t vertex_of(GridPoint p, double rise) {
+        uint32_t sample = index_of(p);
+        if (rise == 0) return sample;
+        Known& known = known_[(sample * 0x9e3779b1u) >> 24];
+        if (known.place >= part_.morphs.size() || part_.morphs[known.place].sample != sample) {
+            known.place = uint32_t(part_.morphs.size());
+            part_.morphs.push_back({sample, float(rise * terrain_.height_step_m)});
+        }
+        return Cut::kMorphBit | known.place;
+    }
+    void emit(const Piece& piece, uint8_t code) {
+        const Triangle& t = piece.triangle;
         part_.void_rim_triangle_count += piece.parent_covers_void;
-        part_.indices.insert(part_.indices.end(),
-                             {index_of(piece.triangle.apex), index_of(piece.triangle.left), index_of(piece.triangle.right)});
+        if (wants_codes_) part_.codes.push_back(code);
+        part_.indices.insert(part_.indices.end(), {vertex_of(t.apex, piece.rises[0]), vertex_of(t.left, piece.rises[1]),
+                                                   vertex_of(t.right, piece.rises[2])});
     }
     void emit_finest(const Piece& piece) {
         const Triangle& t = piece.triangle;
         if (piece.parent_covers_void || shape_.root_log2 == 0)
             for (GridPoint p : {t.apex, t.left, t.right})
                 if (terrain_.heights[index_of(p)] == kVoid) return;
-        emit(piece);
+        emit(piece, 0);
     }
+
+    // Where a sample's morph was put lately: most vertices of a triangle were those of the one before.
+    struct Known {
+        uint32_t place = ~0u;
+    };
 
     const Terrain& terrain_;
     const Shape& shape_;
     const Test& test_;
+    bool wants_codes_;
     Cut::Part& part_;
     uint32_t columns_[32];
+    Known known_[256];
 };
 
 // The two triangles of every root square.
@@ -104,35 +133,50 @@ std::vector<Piece> root_pieces(const Shape& shape, uint8_t planes) {
             GridPoint nw{i * side, j * side}, ne{nw.x + side, nw.y}, sw{nw.x, nw.y + side}, se{ne.x, sw.y};
             bool main = is_main_diagonal(i, j);
             int level = int(shape.root_log2) - 1;
-            pieces.push_back({main ? Triangle{ne, nw, se} : Triangle{nw, sw, ne}, level, true, false, planes});
-            pieces.push_back({main ? Triangle{sw, se, nw} : Triangle{se, ne, sw}, level, true, false, planes});
+            pieces.push_back({main ? Triangle{ne, nw, se} : Triangle{nw, sw, ne}, level, true, false, planes, {0, 0, 0}});
+            pieces.push_back({main ? Triangle{sw, se, nw} : Triangle{se, ne, sw}, level, true, false, planes, {0, 0, 0}});
         }
     return pieces;
 }
 
 void start(Cut::Part& part) {
-    part.indices.clear();
+    part.indices.clear(), part.morphs.clear(), part.codes.clear();
     part.void_rim_triangle_count = part.tested_count = 0;
     part.predicted_squared = 0;
 }
 
+// Where each part's share begins in the whole.
+struct Begins {
+    std::vector<size_t> indices{0}, morphs{0};
+};
+
 // All parts one after the other.
-void join(size_t part_count, Cut& out) {
-    std::vector<size_t> begins(part_count + 1, 0);
+void join(size_t part_count, size_t sample_count, Cut& out) {
+    Begins begins;
     out.void_rim_triangle_count = out.tested_count = 0;
     double predicted_squared = 0;
     for (size_t i = 0; i < part_count; ++i) {
         const Cut::Part& part = out.parts[i];
-        begins[i + 1] = begins[i] + part.indices.size();
+        begins.indices.push_back(begins.indices.back() + part.indices.size());
+        begins.morphs.push_back(begins.morphs.back() + part.morphs.size());
         out.void_rim_triangle_count += part.void_rim_triangle_count;
         out.tested_count += part.tested_count;
         predicted_squared = std::max(predicted_squared, part.predicted_squared);
     }
     out.predicted_error_px = std::sqrt(predicted_squared);
-    out.indices.resize(begins.back());
+    out.indices.resize(begins.indices.back());
+    out.morphs.resize(begins.morphs.back());
+    out.codes.resize(out.wants_codes ? begins.indices.back() / 3 : 0);
     parallel_ranges(part_count, 16, [&](size_t first, size_t end) {
-        for (size_t i = first; i < end; ++i)
-            std::copy(out.parts[i].indices.begin(), out.parts[i].indices.end(), out.indices.begin() + ptrdiff_t(begins[i]));
+        for (size_t i = first; i < end; ++i) {
+            const Cut::Part& part = out.parts[i];
+            uint32_t* index = out.indices.data() + begins.indices[i];
+            uint32_t morph_base = uint32_t(sample_count + begins.morphs[i]);
+            for (uint32_t local : part.indices)
+                *index++ = (local & Cut::kMorphBit) != 0 ? morph_base + (local & ~Cut::kMorphBit) : local;
+            std::copy(part.morphs.begin(), part.morphs.end(), out.morphs.begin() + ptrdiff_t(begins.morphs[i]));
+            std::copy(part.codes.begin(), part.codes.end(), out.codes.begin() + ptrdiff_t(begins.indices[i] / 3));
+        }
     });
 }
 
@@ -145,15 +189,15 @@ void refine(const Terrain& terrain, const Test& test, uint8_t planes, Cut& out) 
 
     if (out.parts.empty()) out.parts.resize(1);
     start(out.parts[0]);
-    Walk<Test> top(terrain, test, out.parts[0]);
+    Walk<Test> top(terrain, test, out.wants_codes, out.parts[0]);
     for (const Piece& root : roots) top.descend(root, depth, [&](const Piece& piece) { pieces.push_back(piece); });
 
     if (out.parts.size() < pieces.size() + 1) out.parts.resize(pieces.size() + 1);
     parallel_ranges(pieces.size(), 1, [&](size_t i, size_t) {
         start(out.parts[i + 1]);
-        Walk<Test>(terrain, test, out.parts[i + 1]).descend(pieces[i]);
+        Walk<Test>(terrain, test, out.wants_codes, out.parts[i + 1]).descend(pieces[i]);
     });
-    join(pieces.size() + 1, out);
+    join(pieces.size() + 1, terrain.heights.size(), out);
 }
 
 }  // namespace
@@ -174,8 +218,8 @@ void Refiner::cut_by_metres(double tolerance_m, Cut& out) const {
     refine(impl_->terrain, MetreTest{impl_->bounds, int(above - errors.begin()) - 1}, 0, out);
 }
 
-void Refiner::cut_by_pixels(const view::Camera& camera, double error_px, Cut& out) const {
-    ScreenTest test(impl_->terrain, impl_->bounds, camera, error_px);
+void Refiner::cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph) const {
+    ScreenTest test(impl_->terrain, impl_->bounds, camera, error_px, morph);
     refine(impl_->terrain, test, ScreenTest::kAllPlanes, out);
 }
 

@@ -6,7 +6,8 @@ namespace {
 constexpr double kRoundingAllowance = 1 + 1e-9;
 }  // namespace
 
-ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px)
+ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px,
+                       double morph)
     : bounds_(bounds),
       last_column_(terrain.shape.width - 1),
       last_row_(terrain.shape.height - 1),
@@ -26,9 +27,12 @@ ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const
     planes_[4] = forward_;
     plane_offsets_[4] = near_m_;
 
+    axis_rise_ = std::abs(axes.forward.z);
     double corner = view::corner_secant(camera);
     corner_squared_ = corner * corner, corner_cosine_ = 1 / corner;
-    focal_squared_ = focal * focal, tolerance_squared_ = error_px * error_px;
+    focal_squared_ = focal * focal, morphs_ = morph > 0;
+    full_px_ = error_px, enter_px_ = error_px / (1 + morph);
+    full_squared_ = full_px_ * full_px_, enter_squared_ = enter_px_ * enter_px_;
     for (int code = 0; code < 256; ++code) error_m_[code] = double(terrain.error_m[size_t(code)]) * kRoundingAllowance;
     finest_error_is_zero_ = terrain.error_m[0] == 0;
 }

@@ -14,6 +14,12 @@ namespace overlook::terrain {
 
 enum class Verdict { leave_out, keep, split };
 
+// What a test says of a split vertex. `share`: how far it has come to its own height, 1 but for one that is morphing.
+struct Answer {
+    Verdict verdict = Verdict::leave_out;
+    double share = 1;
+};
+
 struct Interval {
     double low, high;
 };
@@ -30,21 +36,30 @@ class ScreenTest {
   public:
     static constexpr uint8_t kAllPlanes = 31;  // left, right, bottom, top, near
 
-    ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px);
+    // morph: as in Refiner::cut_by_pixels.
+    ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px, double morph);
 
     // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared
     // (px^2) to the bound of what is kept.
-    Verdict operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t& planes,
-                       double& predicted_squared) const {
+    Answer operator()(GridPoint v, uint32_t level, bool is_square, uint8_t code, uint8_t& planes,
+                      double& predicted_squared) const {
         Box box;
-        if (!box_of(v, level, is_square, box)) return Verdict::leave_out;
-        if (planes != 0 && !is_in_view(box, planes)) return Verdict::leave_out;
-        if (code == 0 && finest_error_is_zero_) return Verdict::keep;
-        if (code != kMustSplit && keeps_tolerance(box, error_m_[code], tolerance_squared_, predicted_squared))
-            return Verdict::keep;
+        if (!box_of(v, level, is_square, box)) return {Verdict::leave_out};
+        if (planes != 0 && !is_in_view(box, planes)) return {Verdict::leave_out};
+        bool must_split = code == kMustSplit || (morphs_ && is_squeezed(v, level, is_square));
+        if (!must_split && code == 0 && finest_error_is_zero_) return {Verdict::keep};
+        double share = 1;
+        if (!must_split) {
+            Bound bound = bound_of(box, error_m_[code]);
+            if (bound.is_within(full_squared_)) {
+                keep_greatest(predicted_squared, bound);
+                if (bound.is_within(enter_squared_)) return {Verdict::keep};
+                share = (std::sqrt(bound.numerator / bound.denominator) - enter_px_) / (full_px_ - enter_px_);
+            }
+        }
         // What an edge of level 0 splits into is the finest there is, whatever was asked.
-        if (level == 0 && !is_square && !finest_error_is_zero_) keeps_tolerance(box, error_m_[0], kNoLimit, predicted_squared);
-        return Verdict::split;
+        if (level == 0 && !is_square && !finest_error_is_zero_) keep_greatest(predicted_squared, bound_of(box, error_m_[0]));
+        return {Verdict::split, std::clamp(share, 0.0, 1.0)};
     }
 
   private:
@@ -89,24 +104,38 @@ class ScreenTest {
         return true;
     }
 
-    // The bound of view/pixel_error.h, squared so as to need no root; raises predicted_squared where it is kept.
-    bool keeps_tolerance(const Box& box, double error_m, double tolerance_squared, double& predicted_squared) const {
+    // view::error_px_bound_vertical over the box's part in the frame, squared, as a fraction so as to need neither root nor
+    // division.
+    struct Bound {
+        double numerator, denominator;
+        bool is_within(double limit_squared) const { return numerator <= limit_squared * denominator; }
+    };
+    Bound bound_of(const Box& box, double error_m) const {
         double depth = std::max(forward_.least(box), near_m_);
         auto outside = [](Interval i) { return std::max(std::max(i.low, -i.high), 0.0); };
         double dx = outside(box.x), dy = outside(box.y), dz = outside(box.z), distance_squared = dx * dx + dy * dy + dz * dz;
         if (distance_squared > depth * depth * corner_squared_)
             depth = std::max(depth, std::sqrt(distance_squared) * corner_cosine_);
-        if (depth <= error_m) return false;
+        double depth_after = depth - error_m * axis_rise_;
+        if (depth_after <= 0) return {kNoLimit, 0};
 
         auto widest = [&](const Direction& d) { return std::max(d.greatest(box), -d.least(box)); };
-        double side_x = widest(right_), side_y = widest(up_);
+        auto furthest = [](Interval i) { return std::max(i.high, -i.low); };
+        double side_x = widest(right_), side_y = widest(up_), far_x = furthest(box.x), far_y = furthest(box.y);
         double depth_squared = depth * depth;
-        double secant_squared = std::min(corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y);
-        double numerator = focal_squared_ * error_m * error_m * secant_squared;  // bound^2 = numerator / denominator
-        double denominator = depth_squared * (depth - error_m) * (depth - error_m);
-        if (numerator > tolerance_squared * denominator) return false;
-        if (numerator > predicted_squared * denominator) predicted_squared = numerator / denominator;
-        return true;
+        double lever_squared = std::min(
+            {corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y, far_x * far_x + far_y * far_y});
+        return {focal_squared_ * error_m * error_m * lever_squared, depth_squared * depth_after * depth_after};
+    }
+    static void keep_greatest(double& predicted_squared, const Bound& bound) {
+        if (bound.numerator > predicted_squared * bound.denominator) predicted_squared = bound.numerator / bound.denominator;
+    }
+
+    // Does the raster's edge cut through a square that this vertex brings up, at any depth?
+    bool is_squeezed(GridPoint v, uint32_t level, bool is_square) const {
+        uint32_t s = 1u << level, reach = is_square ? 3 * s : 2 * s;
+        auto cuts = [&](uint32_t at, uint32_t last) { return last % (2 * s) != 0 && at < last + reach && last < at + reach; };
+        return cuts(v.x, last_column_) || cuts(v.y, last_row_);
     }
 
     static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -118,7 +147,10 @@ class ScreenTest {
     Direction planes_[5];
     double plane_offsets_[5] = {};
     Direction right_, up_, forward_;
-    double near_m_, corner_squared_, corner_cosine_, focal_squared_, tolerance_squared_;
+    double near_m_, axis_rise_, corner_squared_, corner_cosine_, focal_squared_;
+    double enter_px_, full_px_, enter_squared_,
+        full_squared_;  // a vertex enters above the first and is at its own height from the second
+    bool morphs_;
     double error_m_[256];
     bool finest_error_is_zero_;
 };

@@ -12,6 +12,13 @@ double error_px_bound(double focal_px, double error_m, double depth_min_m, doubl
     return focal_px * error_m * secant_max / (depth_min_m - error_m);
 }
 
+double error_px_bound_vertical(double focal_px, double error_m, double depth_min_m, double secant_max, double horizontal_max_m,
+                               double axis_rise) {
+    if (error_m <= 0) return 0;
+    if (depth_min_m <= error_m * axis_rise) return std::numeric_limits<double>::infinity();
+    return focal_px * error_m * std::min(secant_max, horizontal_max_m / depth_min_m) / (depth_min_m - error_m * axis_rise);
+}
+
 double error_px_bound_of_sphere(const Camera& camera, const glm::dvec3& middle_m, double radius_m, double error_m) {
     Axes axes = axes_of(camera);
     glm::dvec3 to_middle = middle_m - camera.position_m;

@@ -20,8 +20,19 @@ namespace overlook::view {
 // Returns infinity where depth_min_m <= error_m (the error can reach the eye) and 0 for error_m = 0.
 double error_px_bound(double focal_px, double error_m, double depth_min_m, double secant_max);
 
-// The same for a sphere given by its middle's distance and angle: its least depth and widest angle are bounded by those of the
-// sphere, and by the frame's corner (secant_corner) since what is outside the frame is not seen.
+// The same where the error is along the world's vertical, as a height field's is: for it |z u_x - x u_z| and |z u_y - y u_z| are
+// two sides of the cross product of p and the vertical u, whose length is p's horizontal distance h from the eye, and the depth
+// changes by error_m * |u_z| at most. So the displacement is at most
+//
+//     focal_px * error_m * min(sec(theta), h / z) / (z - error_m * |u_z|)            [pixels]
+//
+// which is far less for a camera that looks down. horizontal_max_m: the region's greatest horizontal distance; axis_rise: |u_z|,
+// the sine of the axis's pitch, 0 .. 1.
+double error_px_bound_vertical(double focal_px, double error_m, double depth_min_m, double secant_max, double horizontal_max_m,
+                               double axis_rise);
+
+// The bound of error_px_bound for a sphere given by its middle's distance and angle: its least depth and widest angle are bounded
+// by those of the sphere, and by the frame's corner (secant_corner) since what is outside the frame is not seen.
 double error_px_bound_of_sphere(const Camera& camera, const glm::dvec3& middle_m, double radius_m, double error_m);
 
 }  // namespace overlook::view

@@ -2,14 +2,13 @@
 // half-written.
 
 #include <gtest/gtest.h>
-#include <sched.h>
-#include <sys/mount.h>
 
 #include <filesystem>
 
 #include "tests/cli/inputs.h"
 #include "tests/cli/run_command.h"
 #include "tests/formats/scratch_folder.h"
+#include "tests/formats/small_disk.h"
 
 namespace overlook::cli {
 namespace {
@@ -209,12 +208,9 @@ TEST(UnwritableOutput, FileLargerThanTheLimit) {
 TEST(UnwritableOutput, FullDisk) {
     ScratchFolder folder;
     fs::create_directory(folder / "disk");
-    bool has_own_mounts = unshare(CLONE_NEWNS) == 0 || unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0;
-    bool is_small = has_own_mounts && mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-                    mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=32k") == 0;
-    if (!is_small) GTEST_SKIP() << "this system lets nobody mount a small disk for a test";
+    if (!mount_small_disk(folder / "disk", "32k")) GTEST_SKIP() << "this system lets nobody mount a small disk for a test";
     expect_no_room(folder, folder / "disk", "No space left on device", {});
-    umount((folder / "disk").c_str());
+    unmount_small_disk(folder / "disk");
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sched.h>
-#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "tests/formats/scratch_folder.h"
+#include "tests/formats/small_disk.h"
 
 namespace overlook {
 namespace {
@@ -154,9 +153,7 @@ TEST(AtomicFile, SaysThatTheDiskIsFullAndLeavesTheOldFile) {
     ScratchFolder folder;
     constexpr int kCannotMount = 77;
     int code = in_child([&] {
-        if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return kCannotMount;
-        if (mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return kCannotMount;
-        if (mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=256k") != 0) return kCannotMount;
+        if (!mount_small_disk(folder.path(), "256k")) return kCannotMount;
         std::string path = folder / "a.ovl";
         if (!write_file(path, "old")) return 2;
         // 200 KiB fit, the next 200 only in part: a short write, then none.
@@ -169,6 +166,7 @@ TEST(AtomicFile, SaysThatTheDiskIsFullAndLeavesTheOldFile) {
             if (second.error().exit != Exit::cannot_write || file->commit()) return 5;
         }
         if (text_of_file(path) != "old" || folder.names() != Names{"a.ovl"}) return 6;
+        unmount_small_disk(folder.path());
         return 0;
     });
     if (code == kCannotMount) GTEST_SKIP() << "this system lets nobody mount a small disk for a test";

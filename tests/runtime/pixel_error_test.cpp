@@ -58,6 +58,33 @@ TEST(PixelErrorBound, HoldsForEveryPointOfASphereAnywhereInTheFrame) {
     EXPECT_GT(nearest, 0.9);
 }
 
+// The same for vertical displacements and the tighter bound, by the point's own depth, angle and horizontal distance: it is
+// nearly exact.
+TEST(PixelErrorBound, OfVerticalErrorsHoldsAnywhereInTheFrameAndIsTight) {
+    double nearest = 0;
+    for (uint64_t seed = 0; seed < 200000; ++seed) {
+        auto share = [&](uint64_t i) { return test::random_share(6, seed, i); };
+        Camera camera;
+        camera.heading_deg = 360 * share(0), camera.pitch_deg = 180 * share(1) - 90, camera.fov_y_deg = 20 + 100 * share(2);
+        if (seed % 2 == 0) std::swap(camera.width_px, camera.height_px);
+        Axes axes = axes_of(camera);
+        double focal = focal_px(camera), depth = 5 + 500 * share(3), error = depth * share(4) * 0.5;
+        double x = (2 * share(5) - 1) * camera.width_px / 2, y = (2 * share(6) - 1) * camera.height_px / 2;
+        glm::dvec3 point = (axes.forward + axes.right * (x / focal) + axes.up * (y / focal)) * depth;
+        glm::dvec3 moved = point + glm::dvec3{0, 0, share(7) < 0.5 ? error : -error};
+        double moved_depth = glm::dot(moved, axes.forward);
+        ASSERT_GT(moved_depth, 0);
+        double moved_px =
+            std::hypot(focal * glm::dot(moved, axes.right) / moved_depth - x, focal * glm::dot(moved, axes.up) / moved_depth - y);
+        double bound = error_px_bound_vertical(focal, error, depth, glm::length(point) / depth, std::hypot(point.x, point.y),
+                                               std::abs(axes.forward.z));
+        ASSERT_LE(moved_px, bound * (1 + 1e-9)) << seed;
+        ASSERT_LE(bound, error_px_bound(focal, error, depth, glm::length(point) / depth) * (1 + 1e-12));
+        if (bound > 0) nearest = std::max(nearest, moved_px / bound);
+    }
+    EXPECT_GT(nearest, 0.999);
+}
+
 TEST(Camera, IsReadFromFiveOrSixNumbers) {
     auto camera = parse_camera("1,-2.5,3e2,90,-10");
     ASSERT_TRUE(camera.has_value());

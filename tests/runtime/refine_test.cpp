@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "formats/parallel.h"
@@ -87,36 +88,54 @@ bool is_in_frame(const view::Camera& camera, const Screen& s) {
     return s.depth >= camera.near_m && std::abs(s.x) <= camera.width_px / 2.0 && std::abs(s.y) <= camera.height_px / 2.0;
 }
 
-// The greatest distance on the screen between a sample in the frame and the drawn point above or below it, over all triangles of
-// a cut.
-double greatest_displacement_px(const Terrain& terrain, const view::Camera& camera, const Cut& cut) {
-    view::Axes axes = view::axes_of(camera);
-    const Frame& frame = terrain.frame;
-    uint32_t width = terrain.shape.width;
-    double greatest = 0;
+// A corner of a triangle as it is drawn.
+struct Corner {
+    int64_t x, y;
+    double z;
+};
+
+Corner corner_of(const Terrain& terrain, const Cut& cut, size_t i) {
+    uint32_t width = terrain.shape.width, sample = cut.indices[i];
+    double rise_m = 0;
+    if (sample >= terrain.heights.size()) {
+        const Cut::Morph& morph = cut.morphs[sample - terrain.heights.size()];
+        sample = morph.sample, rise_m = double(morph.rise_m);
+    }
+    return {sample % width, sample / width, terrain.height_m(sample % width, sample / width) + rise_m};
+}
+
+// Calls visit(column, row, z) for every sample that a triangle of the cut covers, z its drawn height there.
+template <class Visit>
+void visit_surface(const Terrain& terrain, const Cut& cut, const Visit& visit) {
     for (size_t i = 0; i < cut.indices.size(); i += 3) {
-        int64_t x[3], y[3];
-        double z[3];
-        for (size_t k = 0; k < 3; ++k) {
-            x[k] = cut.indices[i + k] % width, y[k] = cut.indices[i + k] / width;
-            z[k] = terrain.height_m(uint32_t(x[k]), uint32_t(y[k]));
-        }
-        double area = double((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]));
-        for (int64_t row = std::min({y[0], y[1], y[2]}); row <= std::max({y[0], y[1], y[2]}); ++row)
-            for (int64_t column = std::min({x[0], x[1], x[2]}); column <= std::max({x[0], x[1], x[2]}); ++column) {
-                auto side = [&](int p, int q) {
-                    return double((x[q] - x[p]) * (row - y[p]) - (y[q] - y[p]) * (column - x[p])) / area;
+        Corner p[3] = {corner_of(terrain, cut, i), corner_of(terrain, cut, i + 1), corner_of(terrain, cut, i + 2)};
+        double area = double((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
+        for (int64_t row = std::min({p[0].y, p[1].y, p[2].y}); row <= std::max({p[0].y, p[1].y, p[2].y}); ++row)
+            for (int64_t column = std::min({p[0].x, p[1].x, p[2].x}); column <= std::max({p[0].x, p[1].x, p[2].x}); ++column) {
+                auto side = [&](const Corner& a, const Corner& b) {
+                    return double((b.x - a.x) * (row - a.y) - (b.y - a.y) * (column - a.x)) / area;
                 };
-                double a = side(1, 2), b = side(2, 0), c = side(0, 1);
-                if (a < 0 || b < 0 || c < 0) continue;
-                double east_m = double(column) * frame.metres_per_column, north_m = -double(row) * frame.metres_per_row;
-                Screen truth = project(camera, axes, {east_m, north_m, terrain.height_m(uint32_t(column), uint32_t(row))});
-                Screen drawn = project(camera, axes, {east_m, north_m, a * z[0] + b * z[1] + c * z[2]});
-                if (!is_in_frame(camera, truth) && !is_in_frame(camera, drawn)) continue;
-                if (truth.depth <= 0 || drawn.depth <= 0) return INFINITY;
-                greatest = std::max(greatest, std::hypot(truth.x - drawn.x, truth.y - drawn.y));
+                double a = side(p[1], p[2]), b = side(p[2], p[0]), c = side(p[0], p[1]);
+                if (a >= 0 && b >= 0 && c >= 0) visit(uint32_t(column), uint32_t(row), a * p[0].z + b * p[1].z + c * p[2].z);
             }
     }
+}
+
+glm::dvec3 place_of(const Terrain& terrain, uint32_t column, uint32_t row, double z) {
+    return {column * terrain.frame.metres_per_column, -(row * terrain.frame.metres_per_row), z};
+}
+
+// The greatest distance on the screen between a sample in the frame and the drawn point above or below it.
+double greatest_displacement_px(const Terrain& terrain, const view::Camera& camera, const Cut& cut) {
+    view::Axes axes = view::axes_of(camera);
+    double greatest = 0;
+    visit_surface(terrain, cut, [&](uint32_t column, uint32_t row, double z) {
+        Screen truth = project(camera, axes, place_of(terrain, column, row, terrain.height_m(column, row)));
+        Screen drawn = project(camera, axes, place_of(terrain, column, row, z));
+        if (!is_in_frame(camera, truth) && !is_in_frame(camera, drawn)) return;
+        bool is_before_the_eye = truth.depth > 0 && drawn.depth > 0;
+        greatest = std::max(greatest, is_before_the_eye ? std::hypot(truth.x - drawn.x, truth.y - drawn.y) : double(INFINITY));
+    });
     return greatest;
 }
 
@@ -197,6 +216,75 @@ TEST(PixelCut, GrowsAsTheToleranceShrinks) {
         before = cut.triangle_count();
     }
     EXPECT_GT(before, 1000u);
+}
+
+TEST(MorphedCut, KeepsItsPromiseOnAnyRaster) {
+    Cut cut;
+    size_t morphing = 0;
+    for (auto [width, height] : {std::pair{129u, 129u}, {150u, 97u}, {77u, 201u}}) {
+        Terrain terrain = baked(test::make_hills(width, height, 21, 0.01));
+        Refiner refiner(terrain);
+        for (uint64_t seed = 0; seed < 120; ++seed) {
+            view::Camera camera = random_camera(terrain, seed);
+            double asked_px = random_tolerance_px(seed), morph = seed % 2 == 0 ? 0.5 : 2;
+            refiner.cut_by_pixels(camera, asked_px, cut, morph);
+            morphing += cut.morphs.size();
+            ASSERT_LE(greatest_displacement_px(terrain, camera, cut), asked_px * (1 + 1e-6))
+                << width << " x " << height << ", camera " << seed;
+            ASSERT_LE(cut.predicted_error_px, asked_px);
+        }
+    }
+    EXPECT_GT(morphing, 100000u);
+}
+
+TEST(MorphedCut, GivesEveryVertexOneHeight) {
+    Terrain terrain = baked(test::make_hills(150, 97, 22, 0.02));
+    Refiner refiner(terrain);
+    Cut cut;
+    for (uint64_t seed = 0; seed < 60; ++seed) {
+        refiner.cut_by_pixels(random_camera(terrain, seed), random_tolerance_px(seed), cut, 0.5);
+        std::map<std::pair<int64_t, int64_t>, double> heights;
+        for (size_t i = 0; i < cut.indices.size(); ++i) {
+            Corner corner = corner_of(terrain, cut, i);
+            auto [at, is_new] = heights.try_emplace({corner.x, corner.y}, corner.z);
+            ASSERT_EQ(at->second, corner.z) << "camera " << seed;
+        }
+    }
+}
+
+// The greatest step on the screen that any point of the surface makes from one frame of a slow flight to the next, the camera's
+// own movement taken out.
+double greatest_step_px(const Terrain& terrain, double morph) {
+    Refiner refiner(terrain);
+    Cut cut;
+    std::vector<double> before, now;
+    double greatest = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        view::Camera camera;
+        camera.position_m = {1900, -3000 + 0.5 * frame, 1700};
+        camera.pitch_deg = -20;
+        refiner.cut_by_pixels(camera, 2, cut, morph);
+        now.assign(terrain.heights.size(), NAN);
+        visit_surface(terrain, cut,
+                      [&](uint32_t column, uint32_t row, double z) { now[row * terrain.shape.width + column] = z; });
+        view::Axes axes = view::axes_of(camera);
+        for (size_t i = 0; i < before.size(); ++i) {
+            if (std::isnan(before[i]) || std::isnan(now[i])) continue;
+            uint32_t column = uint32_t(i % terrain.shape.width), row = uint32_t(i / terrain.shape.width);
+            Screen a = project(camera, axes, place_of(terrain, column, row, before[i])),
+                   b = project(camera, axes, place_of(terrain, column, row, now[i]));
+            if (is_in_frame(camera, b)) greatest = std::max(greatest, std::hypot(a.x - b.x, a.y - b.y));
+        }
+        before = now;
+    }
+    return greatest;
+}
+
+TEST(MorphedCut, GlidesWhereAnUnmorphedOnePops) {
+    Terrain terrain = baked(test::make_hills(129, 129, 23));
+    double popping_px = greatest_step_px(terrain, 0), gliding_px = greatest_step_px(terrain, 0.5);
+    EXPECT_GT(popping_px, 0.3);
+    EXPECT_LT(gliding_px, 0.05);
 }
 
 TEST(MetreCut, OfAPlaneIsTwoTrianglesARoot) {

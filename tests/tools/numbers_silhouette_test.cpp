@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "tests/tools/numbers_pictures.h"
 #include "tools/measure/numbers/distance_transform.h"
@@ -84,6 +85,16 @@ TEST(Silhouette, LostSpireShowsInTheMaximumOnly) {
     }
 }
 
+TEST(Silhouette, LooksBothWays) {
+    auto island = [](uint32_t x, uint32_t y) { return x >= 20 && x < 60 && y >= 2 && y < 8; };
+    Frame bare = horizon_frame(80, 70, 40);
+    Frame with = mask_frame(80, 70, [=](uint32_t x, uint32_t y) { return y >= 40 || island(x, y); });
+    for (const SilhouetteError& error : {silhouette_error(bare, with), silhouette_error(with, bare)}) {
+        EXPECT_DOUBLE_EQ(error.max_px, 38);
+        EXPECT_GT(error.p95_px, 30);
+    }
+}
+
 TEST(Silhouette, WithoutAnyBorderIsNotOff) {
     Frame nothing = mask_frame(20, 10, [](uint32_t, uint32_t) { return false; });
     Frame everything = mask_frame(20, 10, [](uint32_t, uint32_t) { return true; });
@@ -140,6 +151,16 @@ TEST(Holes, WithinOneAndAHalfPixelsOfTheBorderAreNotCounted) {
         show_background(test, 30, kHorizon + below);
         EXPECT_EQ(hole_pixels(test, reference, 1).count, below > 1 ? 1u : 0u) << below;
         EXPECT_EQ(hole_pixels(test, reference, 1).lost_px, 1u);
+    }
+}
+
+TEST(Holes, DiagonallyNextToTheBorderAreNotCounted) {
+    Frame reference = horizon_frame();
+    show_background(reference, 10, 35);  // its border: the four pixels around
+    for (auto [x, y, count] : {std::tuple(12u, 36u, 0u), {11u, 37u, 0u}, {13u, 35u, 1u}, {12u, 37u, 1u}}) {
+        Frame test = reference;
+        show_background(test, x, y);
+        EXPECT_EQ(hole_pixels(test, reference, 1).count, count) << x << ", " << y;
     }
 }
 

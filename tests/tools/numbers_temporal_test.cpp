@@ -138,8 +138,9 @@ TEST(Temporal, IsNothingForAPanDrawnExactly) {
             view::Camera camera = camera_of(width, height);
             camera.heading_deg += frame;
             Frame now = plane_frame(camera);
-            errors.push_back(
-                temporal_error(motion_between(before, now), rgb_of(before), rgb_of(now), rgb_of(before), rgb_of(now)));
+            Motion motion = motion_between(before, now);
+            EXPECT_GT(motion.valid_count, 0u);
+            errors.push_back(temporal_error(motion, rgb_of(before), rgb_of(now), rgb_of(before), rgb_of(now)));
             EXPECT_EQ(errors.back().mean, 0);
             before = now;
         }

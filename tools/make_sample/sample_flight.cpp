@@ -162,16 +162,16 @@ double least_clearance_m(const Flight& flight, const Landscape& landscape, doubl
 
 Flight overview_flight(const Landscape& landscape, double cell_size_m) {
     Map map{landscape, cell_size_m};
-    Flight flight = map.flight(Interpolation::smooth, {{0, 0.40, 0.80, 620, 42, -9},
-                                                       {3, 0.42, 0.775, 600, 44, -9},
-                                                       {6, 0.48, 0.715, 520, 46, -8},
-                                                       {8.5, 0.565, 0.645, 380, 42, -7},
-                                                       {10.5, 0.635, 0.575, 300, 40, -6},
-                                                       {12.5, 0.695, 0.505, 260, 50, -6},
-                                                       {14.5, 0.775, 0.455, 260, 52, -5},
-                                                       {16.5, 0.845, 0.395, 320, 30, -4},
-                                                       {599 * kStep_s, 0.865, 0.315, 420, 8, -3}});
-    lift(flight, map, kLeastClearance_m + 10);
+    Flight flight = map.flight(Interpolation::smooth, {{0, 0.38, 0.86, 520, 60, -9},
+                                                       {3, 0.40, 0.845, 500, 58, -9},
+                                                       {5.5, 0.455, 0.805, 400, 52, -9},
+                                                       {8, 0.53, 0.745, 320, 44, -8},
+                                                       {10.5, 0.61, 0.655, 340, 40, -7},
+                                                       {12.5, 0.665, 0.57, 400, 42, -7},
+                                                       {14.5, 0.735, 0.485, 420, 48, -6},
+                                                       {16.6, 0.815, 0.425, 600, 40, -6},
+                                                       {599 * kStep_s, 0.855, 0.355, 800, 22, -6}});
+    lift(flight, map, kLeastClearance_m + 70);
     return flight;
 }
 

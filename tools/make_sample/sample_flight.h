@@ -15,7 +15,7 @@ constexpr double kLeastClearance_m = 50;
 // The scene that make-sample writes beside dem.tif: sample.ovl, to be baked from it.
 scene::Scene sample_scene();
 
-// 600 frames: a slow start over the foothills, along the main valley, over its lake and into the range. Every frame is at least
+// 600 frames: a slow start over the foothills, over the lake, along the main valley and into the range. Every frame is at least
 // kLeastClearance_m over the highest of the samples round about.
 scene::Flight overview_flight(const Landscape& landscape, double cell_size_m);
 

@@ -19,7 +19,7 @@ constexpr int kReach = 2, kReachSquared = 6;  // whole squares up to 2.5^2
 
 enum Hole : uint8_t { kNoHole, kShowsBackground, kShowsOther, kShowsDeeper };
 
-bool are_alike(const Frame& a, const Frame& b) {
+[[maybe_unused]] bool are_alike(const Frame& a, const Frame& b) {
     return a.width == b.width && a.height == b.height && a.ids.size() == b.ids.size();
 }
 

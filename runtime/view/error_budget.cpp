@@ -1,0 +1,54 @@
+#include "runtime/view/error_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::view {
+namespace {
+
+constexpr double kAim = 0.975, kRestFrom = 0.95;  // shares of the budget
+constexpr double kMostFallAFrame = 0.03;          // of the error's logarithm
+constexpr double kMostError_px = 256;
+constexpr double kLeastExponent = 0.3, kMostExponent = 3;
+constexpr double kLeastLesson = 0.01;  // changes of the error below 1 % teach nothing about its effect
+
+}  // namespace
+
+void ErrorController::set_budget(const ErrorBudget& budget) {
+    budget_ = budget;
+    error_px_ = budget.cost > 0 ? std::max(error_px_, budget.least_error_px) : budget.least_error_px;
+    latest_count_ = 0;
+}
+
+// Times scatter: the middle one of the last three.
+double ErrorController::judged_cost(double cost) {
+    if (!budget_.is_measured) return cost;
+    latest_[size_t(latest_count_++ % 3)] = cost;
+    if (latest_count_ < 3) return cost;
+    std::array<double, 3> sorted = latest_;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[1];
+}
+
+void ErrorController::learn(double cost) {
+    if (last_cost_ > 0 && cost > 0) {
+        double error_change = std::log(error_px_ / last_error_px_);
+        if (std::abs(error_change) > kLeastLesson)
+            exponent_ = std::clamp((exponent_ - std::log(cost / last_cost_) / error_change) / 2, kLeastExponent, kMostExponent);
+    }
+    last_cost_ = cost, last_error_px_ = error_px_;
+}
+
+void ErrorController::frame_done(double cost) {
+    if (!(budget_.cost > 0)) return;
+    cost = judged_cost(cost);
+    learn(cost);
+    double share = cost / budget_.cost;
+    if (share >= kRestFrom && share <= 1) return;
+    double step = std::log(std::max(share, 1e-6) / kAim) / exponent_;
+    error_px_ = std::clamp(error_px_ * std::exp(std::max(step, -kMostFallAFrame)), budget_.least_error_px,
+                           std::max(kMostError_px, budget_.least_error_px));
+    if (budget_.is_measured) latest_count_ = 0;
+}
+
+}  // namespace overlook::view

@@ -1,0 +1,105 @@
+#include "tools/measure/honesty/terrain_honesty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "formats/parallel.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr size_t kTrianglesAtATime = 1024;
+
+struct Corner {
+    int64_t x, y;
+    double z;
+};
+
+Corner corner_of(const terrain::Terrain& terrain, const terrain::Cut& cut, size_t i) {
+    uint32_t width = terrain.shape.width, sample = cut.indices[i];
+    double rise_m = 0;
+    if (sample >= terrain.heights.size()) {
+        const terrain::Cut::Morph& morph = cut.morphs[sample - terrain.heights.size()];
+        sample = morph.sample, rise_m = double(morph.rise_m);
+    }
+    return {sample % width, sample / width, terrain.height_m(sample % width, sample / width) + rise_m};
+}
+
+struct Screen {
+    double x_px, y_px, depth_m;
+};
+
+class Eye {
+  public:
+    explicit Eye(const view::Camera& camera)
+        : camera_(camera),
+          axes_(view::axes_of(camera)),
+          focal_px_(view::focal_px(camera)),
+          half_x_(camera.width_px / 2.0),
+          half_y_(camera.height_px / 2.0) {}
+
+    Screen project(const glm::dvec3& point_m) const {
+        glm::dvec3 p = point_m - camera_.position_m;
+        double depth = glm::dot(p, axes_.forward);
+        return {focal_px_ * glm::dot(p, axes_.right) / depth, focal_px_ * glm::dot(p, axes_.up) / depth, depth};
+    }
+    bool is_in_frame(const Screen& s) const {
+        return s.depth_m >= camera_.near_m && std::abs(s.x_px) <= half_x_ && std::abs(s.y_px) <= half_y_;
+    }
+
+  private:
+    const view::Camera& camera_;
+    view::Axes axes_;
+    double focal_px_, half_x_, half_y_;
+};
+
+double displacement_px(const Eye& eye, const terrain::Terrain& terrain, uint32_t column, uint32_t row, double drawn_z) {
+    double east_m = column * terrain.frame.metres_per_column, north_m = -(row * terrain.frame.metres_per_row);
+    Screen truth = eye.project({east_m, north_m, terrain.height_m(column, row)}), drawn = eye.project({east_m, north_m, drawn_z});
+    if (!eye.is_in_frame(truth) && !eye.is_in_frame(drawn)) return kNotSeen;
+    if (truth.depth_m <= 0 || drawn.depth_m <= 0) return std::numeric_limits<double>::infinity();
+    return std::hypot(truth.x_px - drawn.x_px, truth.y_px - drawn.y_px);
+}
+
+double triangle_px(const Eye& eye, const terrain::Terrain& terrain, const std::array<Corner, 3>& p) {
+    auto turn = [](const Corner& a, const Corner& b, int64_t x, int64_t y) {
+        return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+    };
+    int64_t area = turn(p[0], p[1], p[2].x, p[2].y), sign = area > 0 ? 1 : -1;
+    double greatest = kNotSeen;
+    for (int64_t row = std::min({p[0].y, p[1].y, p[2].y}); row <= std::max({p[0].y, p[1].y, p[2].y}); ++row)
+        for (int64_t column = std::min({p[0].x, p[1].x, p[2].x}); column <= std::max({p[0].x, p[1].x, p[2].x}); ++column) {
+            int64_t a = sign * turn(p[1], p[2], column, row), b = sign * turn(p[2], p[0], column, row),
+                    c = sign * turn(p[0], p[1], column, row);
+            if (a < 0 || b < 0 || c < 0) continue;
+            double z = (double(a) * p[0].z + double(b) * p[1].z + double(c) * p[2].z) / double(sign * area);
+            greatest = std::max(greatest, displacement_px(eye, terrain, uint32_t(column), uint32_t(row), z));
+        }
+    return greatest;
+}
+
+}  // namespace
+
+void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera,
+                       std::vector<float>& measured_px) {
+    Eye eye(camera);
+    measured_px.resize(cut.triangle_count());
+    parallel_ranges(measured_px.size(), kTrianglesAtATime, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            measured_px[i] = float(triangle_px(
+                eye, terrain,
+                {corner_of(terrain, cut, 3 * i), corner_of(terrain, cut, 3 * i + 1), corner_of(terrain, cut, 3 * i + 2)}));
+    });
+}
+
+void PromiseTally::add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px) {
+    for (size_t i = 0; i < predicted_of_cut_px.size(); ++i) {
+        if (double(measured_of_cut_px[i]) == kNotSeen) continue;
+        predicted_px.push_back(predicted_of_cut_px[i]);
+        measured_px.push_back(measured_of_cut_px[i]);
+    }
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,25 @@
+// G, honesty: what a cut of a terrain promises of each triangle, against what it does.
+#pragma once
+
+#include <vector>
+
+#include "runtime/terrain/predict.h"
+
+namespace overlook::measure {
+
+constexpr double kNotSeen = -1;
+
+// For every triangle of a cut: the greatest distance on the screen, in pixels, between a source sample that it covers (at the
+// same column and row; borders count) and the point that it draws there, over the samples of which one or the other is in the
+// frame; kNotSeen if there is none, infinite if one of the two is behind the eye. Exact point-in-triangle arithmetic. O(samples
+// covered).
+void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera,
+                       std::vector<float>& measured_px);
+
+// Adds one cut's triangles, those seen, to what numbers/honesty.h judges.
+struct PromiseTally {
+    std::vector<float> predicted_px, measured_px;
+    void add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px);
+};
+
+}  // namespace overlook::measure
