@@ -33,6 +33,7 @@ set tics nomirror textcolor rgb "#222222"
 set grid lc rgb "#dddddd" lt 1
 set key outside below left Left reverse samplen 2 noenhanced maxcols (width < 600 ? 1 : 3) font ",12"
 set ylabel offset 1,0
+set xlabel offset 0,0.4
 is_narrow = width < 600
 )";
 
@@ -56,8 +57,8 @@ std::string style_of(const CourseResult& course, size_t run, double width) {
 }
 
 // runs.csv's columns: 1 run, 2 method, 3 is_floor, 4 e, 7 frame_ms_p50, 9 triangles_p50, 10 resident bytes.
-Chart front(const CourseResult& course, const std::string& name, const std::string& cost, int column) {
-    Chart chart{name, "Cost of a frame against its error", kHead};
+Chart front(const CourseResult& course, const std::string& name, const std::string& title, const std::string& cost, int column) {
+    Chart chart{name, title, kHead};
     chart.script +=
         fmt::format("set xlabel {}\nset ylabel 'E: LDR-FLIP, 99th percentile'\nset logscale x\nset yrange [0:*]\n", quoted(cost));
     chart.script += "set format x '%.0s%c'\nset offsets graph 0.08, graph 0.08, graph 0.12, 0\n";
@@ -176,8 +177,9 @@ Chart promise(const CourseResult& course) {
 std::vector<Chart> charts_of(const CourseResult& course) {
     std::vector<Chart> charts;
     if (has_pictures(course)) {
-        charts.push_back(front(course, "front_ms", "frame time, ms (median)", 7));
-        charts.push_back(front(course, "front_triangles", "triangles submitted (median)", 9));
+        charts.push_back(front(course, "front_ms", "Time of a frame against its error", "frame time, ms (median)", 7));
+        charts.push_back(
+            front(course, "front_triangles", "Triangles of a frame against its error", "triangles submitted (median)", 9));
     }
     charts.push_back(over_flight(course));
     if (!has_pictures(course)) return charts;

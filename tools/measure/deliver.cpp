@@ -39,7 +39,7 @@ Result<void> write_worst_frames(const CourseResult& course, const std::string& f
     return {};
 }
 
-void say_summary(const CourseResult& course, const Setup& setup, const std::string& folder, const command::Common& common) {
+void say_summary(const CourseResult& course, const RunSetup& setup, const std::string& folder, const command::Common& common) {
     for (const RunResult& run : course.runs) {
         Percentiles times_ms = percentiles_of(run, "frame_ms");
         std::string line = "measure: " + run.label;
@@ -57,7 +57,8 @@ void say_summary(const CourseResult& course, const Setup& setup, const std::stri
 
 }  // namespace
 
-Result<void> deliver(const CourseResult& course, const Setup& setup, const std::string& folder, const command::Common& common) {
+Result<void> deliver(const CourseResult& course, const RunSetup& setup, const std::string& folder,
+                     const command::Common& common) {
     std::string json = runs_json(course, setup);
     const std::pair<const char*, std::string> tables[] = {
         {"frames.csv", frames_csv(course, setup.step_s)}, {"runs.csv", runs_csv(course)}, {"runs.json", json}};

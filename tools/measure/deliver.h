@@ -11,6 +11,6 @@ namespace overlook::measure {
 
 // Writes frames.csv, runs.csv, runs.json, the charts, the pictures of the worst frames and index.html into `folder`, which must
 // be there; prints runs.json with --json. Without gnuplot the charts are left out, which is said. Fails with Exit::cannot_write.
-Result<void> deliver(const CourseResult& course, const Setup& setup, const std::string& folder, const command::Common& common);
+Result<void> deliver(const CourseResult& course, const RunSetup& setup, const std::string& folder, const command::Common& common);
 
 }  // namespace overlook::measure

@@ -42,7 +42,7 @@ std::array<uint8_t, 3> error_colour(double error) {
     double hue = (kFirstHue_deg + t * (kLastHue_deg - kFirstHue_deg)) * std::numbers::pi / 180;
     double chroma = kMostChroma * std::sin(std::numbers::pi * std::min(1.0, t + 0.02));
     Colour linear = linear_from_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
-    for (; chroma > 1e-3 && !is_in_gamut(linear); chroma *= 0.97) {
+    for (; chroma > 1e-3 && !is_in_gamut(linear); chroma *= 0.998) {
         linear = linear_from_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
     }
     return {encoded(linear[0]), encoded(linear[1]), encoded(linear[2])};

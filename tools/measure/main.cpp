@@ -17,8 +17,8 @@ Result<void> make_folder(const std::string& path) {
     return {};
 }
 
-Setup setup_of(const Options& options, const World& world, const Route& route, const gl::Renderer& renderer) {
-    Setup setup;
+RunSetup setup_of(const Options& options, const World& world, const Route& route, const gl::Renderer& renderer) {
+    RunSetup setup;
     setup.version = command::version();
     setup.scene = world.name;
     setup.scene_hash = world.content_hash;
@@ -42,7 +42,7 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     Result<Route> route = route_from(options, *read);
     if (!route) return tl::unexpected(route.error());
     std::string cache_folder = options.out + "/cache";
-    if (Result<void> made = make_folder(cache_folder); !made) return made;
+    if (Result<void> made = make_folder(options.wall_clock ? options.out : cache_folder); !made) return made;
 
     Result<gl::Context> context = gl::Context::headless();
     if (!context) return tl::unexpected(context.error());
@@ -59,7 +59,7 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     if (!result) return tl::unexpected(result.error());
     if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
 
-    Setup setup = setup_of(options, world, *route, context->renderer());
+    RunSetup setup = setup_of(options, world, *route, context->renderer());
     setup.command = words;
     return deliver(*result, setup, options.out, common);
 }

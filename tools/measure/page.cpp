@@ -23,7 +23,7 @@ std::string row(const std::string& name, const std::string& value) {
 }
 
 std::string what_was_run(const PageInput& input) {
-    const Setup& setup = input.setup;
+    const RunSetup& setup = input.setup;
     size_t frames = input.course.runs.front().frames.size();
     std::string software = setup.renderer.is_software ? " <strong class=\"software\">software OpenGL</strong>" : "";
     std::string html = "<h2>What was run</h2>\n<pre>" + escaped(joined(setup.command)) + "</pre>\n<table class=\"facts\">\n";
@@ -45,6 +45,13 @@ std::string what_was_run(const PageInput& input) {
             "<p class=\"note\">Drawn by the processor: the times say nothing about a graphics card. Judge by the counters.</p>\n";
     }
     return html;
+}
+
+// A run's name, which may break before each setting.
+std::string name_of(const RunResult& run) {
+    std::string name;
+    for (char c : escaped(run.label)) name += c == '@' ? std::string("<wbr>@") : std::string(1, c);
+    return "<span class=\"name\">" + name + "</span>";
 }
 
 // The table leads with what a viewer feels: 99th percentiles, steadiness, long frames.
@@ -86,7 +93,7 @@ std::string table_of_runs(const PageInput& input) {
     html += "<th>triangles p50</th><th>uploaded p50</th><th>held</th><th>promised px</th><th>gates</th></tr></thead>\n<tbody>\n";
     for (const RunResult& run : input.course.runs) {
         html += fmt::format("<tr{}><th scope=\"row\">{}</th>{}<td>{}</td></tr>\n", is_floor(run.spec) ? " class=\"floor\"" : "",
-                            escaped(run.label), cells_of(run), gates_text(run));
+                            name_of(run), cells_of(run), gates_text(run));
     }
     html +=
         "</tbody></table></div>\n<p class=\"note\">p99 and p50 are percentiles over the frames; E is itself the 99th percentile "

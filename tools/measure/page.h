@@ -12,7 +12,7 @@ namespace overlook::measure {
 
 struct PageInput {
     const CourseResult& course;
-    const Setup& setup;
+    const RunSetup& setup;
     const std::vector<Chart>& charts;
     bool has_charts = true;  // drawn, not only their scripts
 };

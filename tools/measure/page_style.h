@@ -20,8 +20,9 @@ table { border-collapse: collapse; font-size: 0.93rem; }
 .runs th, .runs td { padding: 5px 9px; border-bottom: 1px solid #e1e6ea; text-align: right; }
 .runs td { font-variant-numeric: tabular-nums; white-space: nowrap; }
 .runs thead th { vertical-align: bottom; border-bottom: 2px solid #8a949c; }
-.runs th:first-child { text-align: left; position: sticky; left: 0; background: #ffffff; overflow-wrap: anywhere; min-width: 8.5em; }
-.runs td:last-child { text-align: left; }
+.runs th:first-child { text-align: left; position: sticky; left: 0; background: #ffffff; font-weight: 600; }
+.runs thead th { font-weight: 600; }
+.runs td:last-child { text-align: left; white-space: normal; min-width: 9em; }
 .runs .floor td, .runs .floor th { background: #eceff1; }
 .software { background: #fff1c9; padding: 1px 7px; white-space: nowrap; font-weight: 600; }
 .broken { color: #9c2f00; }

@@ -109,7 +109,7 @@ std::string runs_csv(const CourseResult& course) {
     return csv;
 }
 
-std::string runs_json(const CourseResult& course, const Setup& setup) {
+std::string runs_json(const CourseResult& course, const RunSetup& setup) {
     Json json = {
         {"form", "overlook runs"},
         {"form_version", kFormVersion},

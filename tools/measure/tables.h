@@ -10,7 +10,7 @@
 namespace overlook::measure {
 
 // Where and how it was measured; stands in every report.
-struct Setup {
+struct RunSetup {
     std::string version;               // of Overlook
     std::vector<std::string> command;  // as it was typed
     std::string scene, scene_hash;     // the file's bare name, and the hash of its content
@@ -31,6 +31,6 @@ std::string frames_csv(const CourseResult& course, double step_s);
 // runs.csv: a row per run with the medians and 99th percentiles that the charts draw.
 std::string runs_csv(const CourseResult& course);
 // runs.json: schema samples/schema/runs.schema.json.
-std::string runs_json(const CourseResult& course, const Setup& setup);
+std::string runs_json(const CourseResult& course, const RunSetup& setup);
 
 }  // namespace overlook::measure

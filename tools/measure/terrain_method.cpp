@@ -21,17 +21,17 @@ Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cu
 
 class Refined : public Method {
   public:
-    Refined(World& world, double error_px) : world_(world), error_px_(error_px) {}
+    Refined(World& world, double error_px, double morph) : world_(world), error_px_(error_px), morph_(morph) {}
 
     void decide(const view::Camera& camera, uint32_t) override {
         camera_ = camera;
-        world_.refiner->cut_by_pixels(camera, error_px_, cut_);
+        world_.refiner->cut_by_pixels(camera, error_px_, cut_, morph_);
     }
     Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
 
   private:
     World& world_;
-    double error_px_;
+    double error_px_, morph_;
     view::Camera camera_;
     terrain::Cut cut_;
 };
@@ -55,8 +55,8 @@ class Full : public Method {
 
 }  // namespace
 
-std::unique_ptr<Method> make_terrain_method(World& world, double error_px) {
-    return std::make_unique<Refined>(world, error_px);
+std::unique_ptr<Method> make_terrain_method(World& world, double error_px, double morph) {
+    return std::make_unique<Refined>(world, error_px, morph);
 }
 
 std::unique_ptr<Method> make_full_method(World& world) {

@@ -1,0 +1,160 @@
+// A whole run, tiny: the same pictures, counters and numbers every time.
+#include "tools/measure/run.h"
+
+#include <gtest/gtest.h>
+
+#include "formats/container.h"
+#include "tests/formats/scratch_folder.h"
+#include "tests/gl/fixture.h"
+#include "tools/measure/figures.h"
+#include "tools/measure/methods.h"
+#include "tools/measure/options.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr uint32_t kFrames = 4;
+
+// The fixture's hills, flown over northwards.
+struct Hills {
+    World world;
+    Course course;
+
+    explicit Hills(const std::vector<std::string>& methods, const std::vector<std::string>& sweeps) {
+        world.name = "hills";
+        world.content_hash = "the same hills";
+        world.terrain = std::make_unique<terrain::Terrain>(test::hilly_terrain(65));
+        world.refiner.emplace(*world.terrain);
+        EXPECT_TRUE(upload(world));
+        course.specs = *specs_from(methods, sweeps);
+        add_floors(course.specs);
+        for (uint32_t frame = 0; frame < kFrames; ++frame) {
+            course.cameras.push_back(test::from_south(*world.terrain, 64, 64));
+            course.cameras.back().position_m.y += 3.0 * frame;
+        }
+    }
+    CourseResult run(const gl::Renderer& renderer, const std::string& cache = "") {
+        Result<CourseResult> result = run_course(world, course, renderer, cache, [](double) {});
+        EXPECT_TRUE(result) << result.error().message;
+        return result ? std::move(*result) : CourseResult{};
+    }
+};
+
+void expect_same(const CourseResult& a, const CourseResult& b) {
+    ASSERT_EQ(a.runs.size(), b.runs.size());
+    for (size_t run = 0; run < a.runs.size(); ++run) {
+        SCOPED_TRACE(a.runs[run].label);
+        ASSERT_EQ(a.runs[run].frames.size(), b.runs[run].frames.size());
+        for (const Figure& one : figures()) {
+            if (!one.repeats) continue;
+            EXPECT_EQ(values_of(a.runs[run], one), values_of(b.runs[run], one)) << one.name;
+        }
+        EXPECT_EQ(a.runs[run].pop.index, b.runs[run].pop.index);
+        EXPECT_EQ(a.runs[run].worst_e.test.pixels, b.runs[run].worst_e.test.pixels);
+        EXPECT_EQ(a.runs[run].worst_w.test.pixels, b.runs[run].worst_w.test.pixels);
+        EXPECT_EQ(a.runs[run].worst_w.reference.pixels, b.runs[run].worst_w.reference.pixels);
+    }
+}
+
+TEST(MeasuredCourse, IsTheSameEveryTime) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain"}, {"error-px=1,8"});
+    CourseResult once = hills.run(context->renderer()), again = hills.run(context->renderer());
+    ASSERT_EQ(once.runs.size(), 3u);
+    expect_same(once, again);
+}
+
+TEST(MeasuredCourse, IsTheSameWithKeptReferences) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    ScratchFolder cache;
+    Hills hills({"terrain"}, {});
+    CourseResult drawn = hills.run(context->renderer(), cache.path()), kept = hills.run(context->renderer(), cache.path());
+    EXPECT_EQ(drawn.references_drawn, kFrames);
+    EXPECT_EQ(kept.references_drawn, 0u);
+    EXPECT_EQ(kept.references_kept, kFrames);
+    expect_same(drawn, kept);
+}
+
+TEST(MeasuredCourse, DrawsADamagedReferenceAnew) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    ScratchFolder cache;
+    Hills hills({"terrain"}, {});
+    CourseResult drawn = hills.run(context->renderer(), cache.path());
+    std::string path = cache / *cache.names().begin(), whole = text_of_file(path);
+    std::string damaged = whole;
+    damaged[damaged.size() / 2] = char(damaged[damaged.size() / 2] ^ 4);
+    std::ofstream(path, std::ios::binary) << damaged;
+    CourseResult again = hills.run(context->renderer(), cache.path());
+    EXPECT_EQ(again.references_damaged, 1u);
+    EXPECT_EQ(again.references_drawn, 1u);
+    EXPECT_EQ(text_of_file(path), whole);
+    expect_same(drawn, again);
+}
+
+TEST(MeasuredCourse, KeepsReferencesApartByWhatIsSeen) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    ScratchFolder cache;
+    Hills hills({"full"}, {});
+    hills.run(context->renderer(), cache.path());
+    hills.world.content_hash = "other hills";
+    EXPECT_EQ(hills.run(context->renderer(), cache.path()).references_drawn, kFrames);
+    hills.world.look.haze = 0;
+    EXPECT_EQ(hills.run(context->renderer(), cache.path()).references_drawn, kFrames);
+    hills.course.cameras[2].heading_deg += 1e-9;
+    EXPECT_EQ(hills.run(context->renderer(), cache.path()).references_drawn, 1u);
+    gl::Renderer other = context->renderer();
+    other.version += "x";
+    EXPECT_EQ(hills.run(other, cache.path()).references_drawn, kFrames);
+}
+
+TEST(MeasuredCourse, PutsTheFloorWhereItBelongs) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain@samples=1", "terrain@error-px=30"}, {});
+    CourseResult course = hills.run(context->renderer());
+    ASSERT_EQ(course.runs.size(), 4u);
+    EXPECT_EQ(course.runs[0].floor, 2u);
+    EXPECT_EQ(course.runs[1].floor, 3u);
+    EXPECT_EQ(course.runs[2].label, "full@samples=1");
+    EXPECT_EQ(course.runs[2].pop.index, 1);
+    EXPECT_EQ(course.runs[3].frames[0].counters.triangle_count, 2u * 64 * 64);
+    EXPECT_EQ(percentiles_of(course.runs[3], "hole_px").max, 0);
+}
+
+TEST(MeasuredCourse, SeesTheErrorOfACoarseCut) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain@error-px=0.25", "terrain@error-px=20"}, {});
+    CourseResult course = hills.run(context->renderer());
+    const RunResult &fine = course.runs[0], &coarse = course.runs[1];
+    EXPECT_GT(percentiles_of(coarse, "e_p99_flip").max, 1.2 * percentiles_of(fine, "e_p99_flip").max);
+    EXPECT_GT(percentiles_of(coarse, "w_luma").max, percentiles_of(fine, "w_luma").max);
+    EXPECT_LT(percentiles_of(coarse, "triangles").max, percentiles_of(fine, "triangles").p50);
+    EXPECT_LE(percentiles_of(coarse, "predicted_error_px").max, 20);
+}
+
+TEST(MeasuredCourse, TakesEOnTheFirstAndEveryTenthFrame) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"full"}, {});
+    CourseResult course = hills.run(context->renderer());
+    EXPECT_TRUE(course.runs[0].frames[0].numbers.e_p99);
+    for (uint32_t frame = 1; frame < kFrames; ++frame) {
+        EXPECT_FALSE(course.runs[0].frames[frame].numbers.e_p99) << frame;
+        EXPECT_TRUE(course.runs[0].frames[frame].numbers.w) << frame;
+    }
+    EXPECT_FALSE(course.runs[0].frames[0].numbers.w);
+}
+
+TEST(MeasuredCourse, ByTheWallClockHasTimesAlone) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain"}, {});
+    Result<CourseResult> course = run_by_wall_clock(hills.world, hills.course, [](double) {});
+    ASSERT_TRUE(course);
+    for (const RunResult& run : course->runs) {
+        ASSERT_FALSE(run.frames.empty());
+        for (size_t i = 1; i < run.frames.size(); ++i) EXPECT_GE(run.frames[i].frame, run.frames[i - 1].frame);
+        EXPECT_FALSE(run.frames[0].numbers.psnr_db);
+        EXPECT_GT(run.frames[0].counters.triangle_count, 0u);
+    }
+}
+
+}  // namespace
+}  // namespace overlook::measure

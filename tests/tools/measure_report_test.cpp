@@ -1,0 +1,336 @@
+// Tables, JSON and page of a run made by hand.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "tests/formats/scratch_folder.h"
+#include "tools/measure/deliver.h"
+#include "tools/measure/figures.h"
+#include "tools/measure/methods.h"
+#include "tools/measure/page.h"
+#include "tools/measure/page_text.h"
+
+namespace overlook::measure {
+namespace {
+
+using Json = nlohmann::json;
+
+WorstFrame worst_of(uint32_t frame, double value) {
+    WorstFrame worst{true, frame, value, {4, 4, std::vector<uint8_t>(48, 90)}, {4, 4, std::vector<uint8_t>(48, 80)}, {}};
+    worst.map.assign(16, 0.0f);
+    worst.map[0] = 0.5f;
+    return worst;
+}
+
+// Ten frames; frame i costs base + i milliseconds and has E e + i / 1000 on every fifth.
+RunResult run_of(const MethodSpec& spec, double base_ms, double e) {
+    RunResult run;
+    run.spec = spec;
+    run.label = label_of(spec);
+    for (uint32_t i = 0; i < 10; ++i) {
+        FrameRecord record;
+        record.frame = i;
+        record.counters.triangle_count = 1000 + i;
+        record.counters.predicted_error_px = is_floor(spec) ? 0 : setting(spec, "error-px") / 2;
+        record.decide_ms = 1;
+        record.draw_ms = base_ms + i - 1;
+        if (i % 5 == 0) record.numbers.e_p99 = record.numbers.e_mean = e + i / 1000.0;
+        if (i > 0) record.numbers.w = e / 10;
+        record.numbers.s_p95_px = record.numbers.s_max_px = 1;
+        record.numbers.hole_count = 0;
+        record.numbers.psnr_db = 40;
+        record.numbers.luma_difference = 0.01;
+        run.frames.push_back(record);
+    }
+    run.worst_e = worst_of(5, e + 0.005);
+    run.worst_w = worst_of(3, e / 10);
+    return run;
+}
+
+CourseResult a_course() {
+    CourseResult course;
+    course.runs.push_back(run_of(*parse_method("terrain@error-px=1"), 5, 0.2));
+    course.runs.push_back(run_of(*parse_method("terrain@error-px=4"), 2, 0.4));
+    course.runs.push_back(run_of(floor_spec(4), 50, 0.1));
+    for (RunResult& run : course.runs) run.floor = 2;
+    course.runs[1].pop.index = 3;
+    course.runs[1].pop.frame = 3;
+    course.references_drawn = 10;
+    return course;
+}
+
+RunSetup a_setup() {
+    RunSetup setup;
+    setup.version = "1.2.3";
+    setup.command = {"measure", "a scene.json", "--method", "<b>&\"x\""};
+    setup.scene = "<scene>.json";
+    setup.scene_hash = setup.flight_hash = std::string(32, 'a');
+    setup.flight = "f.json";
+    setup.processor = "A processor";
+    setup.processor_threads = 2;
+    setup.renderer = {"llvmpipe", "4.5", true};
+    setup.width_px = setup.height_px = 4;
+    setup.step_s = 0.5;
+    return setup;
+}
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+        rows.emplace_back(1);
+        for (char c : line) {
+            if (c == ',')
+                rows.back().emplace_back();
+            else
+                rows.back().back() += c;
+        }
+    }
+    return rows;
+}
+
+std::string cell(const std::vector<std::vector<std::string>>& rows, size_t row, const std::string& column) {
+    auto found = std::find(rows[0].begin(), rows[0].end(), column);
+    EXPECT_NE(found, rows[0].end()) << column;
+    return found == rows[0].end() ? "" : rows[row][size_t(found - rows[0].begin())];
+}
+
+TEST(FramesTable, HasARowForEveryFrameOfEveryRun) {
+    auto rows = rows_of(frames_csv(a_course(), 0.5));
+    ASSERT_EQ(rows.size(), 31u);
+    for (const auto& row : rows) EXPECT_EQ(row.size(), 3 + figures().size());
+    EXPECT_EQ(cell(rows, 1, "run"), "terrain@error-px=1@samples=4");
+    EXPECT_EQ(cell(rows, 4, "frame"), "3");
+    EXPECT_EQ(cell(rows, 4, "time_s"), "1.5");
+    EXPECT_EQ(cell(rows, 4, "frame_ms"), "8");
+    EXPECT_EQ(cell(rows, 30, "triangles"), "1009");
+    EXPECT_EQ(cell(rows, 30, "run"), "full@samples=4");
+}
+
+TEST(FramesTable, LeavesEmptyWhatWasNotTaken) {
+    auto rows = rows_of(frames_csv(a_course(), 0.5));
+    EXPECT_EQ(cell(rows, 1, "w_luma"), "");
+    EXPECT_EQ(cell(rows, 2, "e_p99_flip"), "");
+    EXPECT_DOUBLE_EQ(std::stod(cell(rows, 6, "e_p99_flip")), 0.205);
+}
+
+TEST(FramesTable, NamesTheUnitOfEveryNumberThatHasOne) {
+    static const std::regex kCounts("triangles|vertex_references|draw_calls|tested|events|luma_difference");
+    for (const Figure& one : figures()) {
+        std::string name(one.name);
+        bool has_unit = std::regex_search(name, std::regex("_(ms|px|bytes|db|luma|flip)$"));
+        EXPECT_TRUE(has_unit || std::regex_match(name, kCounts)) << name;
+    }
+}
+
+TEST(RunsTable, HasWhatTheChartsDraw) {
+    auto rows = rows_of(runs_csv(a_course()));
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(cell(rows, 2, "pop_index"), "3");
+    EXPECT_EQ(cell(rows, 1, "frame_ms_p50"), "9");
+    EXPECT_DOUBLE_EQ(std::stod(cell(rows, 1, "e_p99_flip")), 0.205);
+    EXPECT_EQ(cell(rows, 3, "is_floor"), "1");
+}
+
+const Json& resolved(const Json& schema, const Json& part) {
+    return part.contains("$ref") ? schema.at(Json::json_pointer(part["$ref"].get<std::string>().substr(1))) : part;
+}
+
+bool is_of(const std::string& type, const Json& value) {
+    if (type == "object") return value.is_object();
+    if (type == "array") return value.is_array();
+    if (type == "string") return value.is_string();
+    if (type == "boolean") return value.is_boolean();
+    if (type == "integer") return value.is_number_integer();
+    return type == "null" ? value.is_null() : value.is_number();
+}
+
+// What of a value its schema does not allow; as much of JSON Schema as ours uses.
+void check(const Json& schema, const Json& reference, const Json& value, const std::string& place,
+           std::vector<std::string>& wrong) {
+    const Json& part = resolved(schema, reference);
+    const Json& type = part.at("type");
+    bool is_right = false;
+    for (const Json& one : type.is_array() ? type : Json::array({type})) is_right = is_right || is_of(one, value);
+    if (!is_right) return wrong.push_back(place + ": another type");
+    if (part.contains("const") && part["const"] != value) wrong.push_back(place + ": another value");
+    if (part.contains("enum") && !std::count(part["enum"].begin(), part["enum"].end(), value))
+        wrong.push_back(place + ": no such value");
+    if (value.is_array()) {
+        for (const Json& one : value) check(schema, part.at("items"), one, place + "[]", wrong);
+    }
+    if (!value.is_object()) return;
+    const Json none = Json::object();
+    const Json& properties = part.contains("properties") ? part["properties"] : none;
+    for (const Json& name : part.value("required", Json::array())) {
+        if (!value.contains(name)) wrong.push_back(place + ": lacks " + name.get<std::string>());
+    }
+    for (const auto& [name, member] : value.items()) {
+        if (properties.contains(name)) {
+            check(schema, properties[name], member, place + "/" + name, wrong);
+        } else if (part.at("additionalProperties").is_object()) {
+            check(schema, part["additionalProperties"], member, place + "/" + name, wrong);
+        } else {
+            wrong.push_back(place + ": has " + name);
+        }
+    }
+}
+
+std::vector<std::string> faults_of(const Json& runs) {
+    Json schema = Json::parse(text_of_file(OVERLOOK_SOURCE_DIR "/samples/schema/runs.schema.json"));
+    std::vector<std::string> wrong;
+    check(schema, schema, runs, "", wrong);
+    return wrong;
+}
+
+TEST(RunsJson, KeepsItsSchema) {
+    EXPECT_EQ(faults_of(Json::parse(runs_json(a_course(), a_setup()))), std::vector<std::string>());
+}
+
+TEST(RunsJson, WithoutPicturesKeepsItsSchema) {
+    CourseResult course = a_course();
+    RunSetup setup = a_setup();
+    setup.is_wall_clock = true;
+    for (RunResult& run : course.runs) {
+        run.worst_e = run.worst_w = {};
+        for (FrameRecord& frame : run.frames) frame.numbers = {};
+    }
+    Json runs = Json::parse(runs_json(course, setup));
+    EXPECT_EQ(faults_of(runs), std::vector<std::string>());
+    EXPECT_TRUE(runs["runs"][0]["gates"].empty());
+}
+
+TEST(RunsJson, OfAnotherFormDoesNotKeepTheSchema) {
+    Json runs = Json::parse(runs_json(a_course(), a_setup()));
+    for (const char* place : {"/form_version", "/runs/0/summary/frame_ms/p99", "/machine/is_software", "/runs/1/gates"}) {
+        Json other = runs;
+        other[Json::json_pointer(place)] = "other";
+        EXPECT_EQ(faults_of(other).size(), 1u) << place;
+    }
+    runs["date"] = "today";
+    EXPECT_EQ(faults_of(runs), std::vector<std::string>{": has date"});
+}
+
+TEST(Gates, AreBrokenByAPopAHoleOrABrokenPromise) {
+    CourseResult course = a_course();
+    for (const Gate& gate : gates_of(course.runs[0])) EXPECT_TRUE(gate.is_kept()) << gate.name;
+    auto broken = [](const RunResult& run) {
+        std::string names;
+        for (const Gate& gate : gates_of(run)) names += gate.is_kept() ? "" : std::string(gate.name) + " ";
+        return names;
+    };
+    EXPECT_EQ(broken(course.runs[1]), "pop_index ");
+    course.runs[0].frames[7].numbers.hole_count = 1;
+    EXPECT_EQ(broken(course.runs[0]), "hole_px ");
+    course.runs[0].frames[7].numbers.hole_count = 0;
+    course.runs[0].frames[7].counters.predicted_error_px = 1.01;
+    EXPECT_EQ(broken(course.runs[0]), "predicted_error_px ");
+}
+
+TEST(Gates, AreAtTheFloorWithinTwoPercent) {
+    CourseResult course = a_course();
+    EXPECT_TRUE(is_at_floor(course.runs[2], course.runs[2]));
+    EXPECT_FALSE(is_at_floor(course.runs[0], course.runs[2]));
+    RunResult near = run_of(*parse_method("terrain"), 5, 0.101);
+    EXPECT_TRUE(is_at_floor(near, course.runs[2]));
+    near = run_of(*parse_method("terrain"), 5, 0.105);
+    EXPECT_FALSE(is_at_floor(near, course.runs[2]));
+}
+
+TEST(Sentences, SayHowBadAWorstFrameIsAndWhere) {
+    CourseResult course = a_course();
+    EXPECT_EQ(
+        worst_sentence(course.runs[1], course.runs[2], true),
+        "Frame 5: E 0.405, 3.86 times the floor's 0.105 on the same frame; most of it (100 %) lies in the upper left ninth of "
+        "the picture.");
+    course.runs[1].worst_w.map.assign(16, 0.0f);
+    EXPECT_EQ(worst_sentence(course.runs[1], course.runs[2], false),
+              "Frame 3: W 0.04, 4 times the floor's 0.01 on the same frame; nothing differs.");
+}
+
+TEST(Sentences, NameTheCheapestAtTheFloorOrTheNearest) {
+    CourseResult course = a_course();
+    EXPECT_NE(chart_sentence("front_ms", course)
+                  .find("None is at the floor (within 1.02 times its E); the nearest is "
+                        "terrain@error-px=1@samples=4 at 1.95 times."),
+              std::string::npos)
+        << chart_sentence("front_ms", course);
+    course.runs[0] = run_of(course.runs[0].spec, 5, 0.1);
+    course.runs[0].floor = 2;
+    EXPECT_NE(chart_sentence("front_ms", course)
+                  .find("The cheapest at the floor (within 1.02 times its E) is "
+                        "terrain@error-px=1@samples=4, for 0.167 of the floor's cost."),
+              std::string::npos)
+        << chart_sentence("front_ms", course);
+}
+
+std::set<std::string> links_of(const std::string& html) {
+    static const std::regex kLink("(?:href|src|srcset)=\"([^\"]*)\"");
+    std::set<std::string> links;
+    for (std::sregex_iterator at(html.begin(), html.end(), kLink), end; at != end; ++at) links.insert((*at)[1]);
+    return links;
+}
+
+TEST(Page, LinksOnlyToWhatLiesBesideIt) {
+    ScratchFolder folder;
+    command::Common common;
+    common.quiet = true;
+    Result<void> delivered = deliver(a_course(), a_setup(), folder.path(), common);
+    ASSERT_TRUE(delivered) << delivered.error().message;
+    std::string html = text_of_file(folder / "index.html");
+    std::set<std::string> links = links_of(html);
+    EXPECT_GT(links.size(), 8u);
+    for (const std::string& link : links) EXPECT_TRUE(std::filesystem::exists(folder / link)) << link;
+    for (const char* outside : {"http:", "https:", "//", "@import", "url(", "<script"}) {
+        EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+    }
+}
+
+TEST(Page, NamesEveryRunAndEveryWorstFrame) {
+    CourseResult course = a_course();
+    std::string html = page_html({course, a_setup(), charts_of(course), true});
+    std::string plain = std::regex_replace(html, std::regex("<wbr>"), "");
+    for (const RunResult& run : course.runs) {
+        EXPECT_NE(plain.find("<span class=\"name\">" + run.label + "</span>"), std::string::npos) << run.label;
+        EXPECT_NE(plain.find("<h3>" + run.label + "</h3>"), std::string::npos) << run.label;
+        for (bool is_e : {true, false}) {
+            std::string sentence = escaped(worst_sentence(run, course.runs[run.floor], is_e));
+            EXPECT_NE(html.find(sentence), std::string::npos) << sentence;
+        }
+    }
+    EXPECT_NE(html.find("pop_index 3 &gt; 1.2"), std::string::npos);
+}
+
+TEST(Page, SaysThatAProcessorDrew) {
+    CourseResult course = a_course();
+    RunSetup setup = a_setup();
+    EXPECT_NE(page_html({course, setup, {}, true}).find("software OpenGL"), std::string::npos);
+    setup.renderer.is_software = false;
+    EXPECT_EQ(page_html({course, setup, {}, true}).find("software OpenGL"), std::string::npos);
+}
+
+TEST(Page, TakesNoMarkupFromNames) {
+    CourseResult course = a_course();
+    std::string html = page_html({course, a_setup(), {}, true});
+    EXPECT_EQ(html.find("<scene>"), std::string::npos);
+    EXPECT_EQ(html.find("<b>"), std::string::npos);
+    EXPECT_NE(html.find("'a scene.json'"), std::string::npos);
+}
+
+TEST(Page, SaysWhenThereAreNoCharts) {
+    CourseResult course = a_course();
+    std::string html = page_html({course, a_setup(), charts_of(course), false});
+    EXPECT_NE(html.find("gnuplot was not installed"), std::string::npos);
+    EXPECT_EQ(html.find("charts/front_ms.svg"), std::string::npos);
+}
+
+TEST(Charts, AreTheSameEveryTime) {
+    std::vector<Chart> once = charts_of(a_course()), again = charts_of(a_course());
+    ASSERT_EQ(once.size(), 5u);
+    for (size_t i = 0; i < once.size(); ++i) EXPECT_EQ(once[i].script, again[i].script);
+}
+
+}  // namespace
+}  // namespace overlook::measure
