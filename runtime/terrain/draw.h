@@ -22,7 +22,7 @@ enum class Look {
 struct DrawOptions {
     Look look = Look::shaded;
     double haze = 1;         // how much the air hides far things: 0 = not at all, 1 = a fair day
-    float anisotropy = 8;    // texels taken along the view, at most; each costs time on a software renderer
+    float anisotropy = 1;    // texels taken along the view, at most; 1 where software draws (see player's choose_samples)
     double line_px = 1;      // width of the wireframe's lines
     glm::dvec3 origin_m{0};  // where the terrain's own origin lies in the world that the camera is in
 };
