@@ -16,10 +16,9 @@ constexpr SettingKind kErrorPx{"error-px", 0.01, 1000, 1, false};
 constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
 constexpr std::array<SettingKind, 2> kTerrainSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<std::string_view, 1> kTerrainVariants = {"pop"};  // levels exchanged at once
-constexpr double kMorph = 0.5;                                         // of the default variant
-constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings},
-                                              MethodKind{"full", {}, kFullSettings}};
+constexpr std::array<std::string_view, 1> kTerrainVariants = {"morph"};
+constexpr double kMorph = 1;  // as much as the player's --morph alone
+constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings}, MethodKind{"full", {}, kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -213,14 +212,10 @@ bool is_floor(const MethodSpec& spec) {
     return spec.name == "full" && spec.variant.empty();
 }
 
-double morph_of(const MethodSpec& spec) {
-    return spec.variant == "pop" ? 0 : kMorph;
-}
-
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     assert(spec.name == "terrain");
-    return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
+    return make_terrain_method(world, setting(spec, "error-px"), spec.variant == "morph" ? kMorph : 0);
 }
 
 }  // namespace overlook::measure
