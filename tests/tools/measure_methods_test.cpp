@@ -37,6 +37,12 @@ TEST(Methods, AreReadBackFromTheirLabels) {
     }
 }
 
+TEST(Methods, HaveVariantsThatAreCurvesOfTheirOwn) {
+    EXPECT_EQ(labels_of({"terrain:morph@error-px=2", "terrain"}, {}),
+              (Strings{"terrain:morph@error-px=2@samples=4", "terrain@error-px=1@samples=4"}));
+    EXPECT_EQ(family_of(*parse_method("terrain:morph")), "terrain:morph");
+}
+
 TEST(Methods, SweepsMultiplyThoseThatHaveTheSetting) {
     EXPECT_EQ(labels_of({"terrain", "full"}, {"error-px=0.5,2"}),
               (Strings{"terrain@error-px=0.5@samples=4", "terrain@error-px=2@samples=4", "full@samples=4"}));

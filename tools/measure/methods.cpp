@@ -17,8 +17,9 @@ constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
 constexpr std::array<SettingKind, 2> kTerrainSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 constexpr std::array<std::string_view, 1> kTerrainVariants = {"morph"};
-constexpr double kMorph = 1;  // as much as the player's --morph alone
-constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings}, MethodKind{"full", {}, kFullSettings}};
+constexpr double kMorph = 0.5;  // the player's default
+constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings},
+                                              MethodKind{"full", {}, kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {

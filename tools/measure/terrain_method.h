@@ -8,8 +8,8 @@
 
 namespace overlook::measure {
 
-// The coarsest cut whose bound stays under error_px (runtime/terrain/refine.h). morph: as Refiner::cut_by_pixels takes it, 0 = hard
-// switching.
+// The coarsest cut whose bound stays under error_px (runtime/terrain/refine.h). morph: as Refiner::cut_by_pixels takes it, 0 =
+// hard switching.
 std::unique_ptr<Method> make_terrain_method(World& world, double error_px, double morph);
 
 // Every triangle of the raster, whether in view or not.

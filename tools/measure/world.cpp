@@ -55,6 +55,8 @@ Result<World> read_world(const std::string& path) {
     world.refiner.emplace(*world.terrain);
     world.resident_bytes = bytes_on_card(*world.terrain);
     world.look.haze = scene->light.haze;
+    // Mesa 22.3's llvmpipe loops for seconds, or for ever, on some triangles with anisotropic filtering.
+    world.look.anisotropy = 1;
     world.transform = scene->layers[0].transform;
     world.base.fov_y_deg = scene->camera.fov_y_deg;
     world.base.near_m = scene->camera.near_m.value_or(near_m(*world.terrain) * world.transform.scale);
