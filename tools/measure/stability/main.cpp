@@ -15,7 +15,7 @@ namespace {
 
 struct SuiteOptions {
     std::string folder, scene, out;
-    std::vector<std::string> cases, methods{"terrain", "terrain:pop"};
+    std::vector<std::string> cases, methods{"terrain:morph", "terrain"};
     std::string size = "320x240";
     uint32_t frames = 0;
     double asked_px = 1;
@@ -27,7 +27,7 @@ void add_suite_options(CLI::App& app, SuiteOptions& options) {
                    "What is flown over: a scene (.json) or a baked terrain (.ovl); default the first case's")
         ->type_name("SCENE");
     app.add_option("--case", options.cases, "S01 ...: these cases alone; may be repeated")->type_name("CASE");
-    app.add_option("--method", options.methods, "As of measure; may be repeated; default terrain and terrain:pop")
+    app.add_option("--method", options.methods, "As of measure; may be repeated; default terrain:morph and terrain")
         ->type_name("METHOD")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -122,7 +122,7 @@ Result<bool> run_all(const SuiteOptions& options, const std::vector<std::string>
 int main(int argc, char** argv) {
     using namespace overlook;
     CLI::App app(
-        "Runs the stability suite: which gates every method keeps. Exit code 1 if one is missed, but by the baseline pop",
+        "Runs the stability suite: which gates every method keeps. Exit code 1 if one is missed, but by the baseline that pops",
         "stability");
     command::Common common;
     measure::SuiteOptions options;

@@ -181,9 +181,9 @@ std::string stability_html(const SuiteResult& result, const RunSetup& setup, con
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\">\n<title>Stability suite</title>\n<style>\n{}</style>\n</head>\n<body>\n"
-        "<main>\n<h1>Stability suite: {} of {} verdicts pass</h1>\n<p class=\"note\">The variant pop exchanges levels at once: "
-        "the "
-        "baseline beside which the default is seen.</p>\n{}{}{}{}</main>\n</body>\n</html>\n",
+        "<main>\n<h1>Stability suite: {} of {} verdicts pass</h1>\n<p class=\"note\">The plain terrain exchanges its levels at "
+        "once: the "
+        "baseline beside which terrain:morph is seen.</p>\n{}{}{}{}</main>\n</body>\n</html>\n",
         kPageStyle, kept, result.verdicts.size(), facts_html(setup, stage), matrix_html(result), cases_html(result),
         owed_html(result));
 }
