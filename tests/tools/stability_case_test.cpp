@@ -64,7 +64,7 @@ TEST(StabilitySuite, HasAllItsCases) {
     ASSERT_EQ(cases->size(), 20u);
     std::set<std::string> figures;
     for (const Case& each : *cases) {
-        for (const Gate& gate : each.gates) figures.insert(gate.figure);
+        for (const CaseGate& gate : each.gates) figures.insert(gate.figure);
         if (each.scene.empty()) continue;
         Result<scene::Scene> scene = scene::read_scene(each.scene);
         EXPECT_TRUE(scene) << scene.error().message;

@@ -213,10 +213,14 @@ bool is_floor(const MethodSpec& spec) {
     return spec.name == "full" && spec.variant.empty();
 }
 
+double morph_of(const MethodSpec& spec) {
+    return spec.variant == "morph" ? kMorph : 0;
+}
+
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     assert(spec.name == "terrain");
-    return make_terrain_method(world, setting(spec, "error-px"), spec.variant == "morph" ? kMorph : 0);
+    return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
 }
 
 }  // namespace overlook::measure

@@ -42,6 +42,9 @@ Result<std::vector<MethodSpec>> specs_from(const std::vector<std::string>& metho
 MethodSpec floor_spec(double samples);
 bool is_floor(const MethodSpec& spec);
 
+// How far a terrain's vertices morph (Refiner::cut_by_pixels): 0, of the variant "morph" the player's 0.5.
+double morph_of(const MethodSpec& spec);
+
 // The spec must come from above; the world must outlive the method.
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world);
 

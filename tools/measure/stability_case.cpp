@@ -70,8 +70,8 @@ bool is_one_of(const Names& names, std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-Gate read_gate(Form& form, const Node& node) {
-    Gate gate;
+CaseGate read_gate(Form& form, const Node& node) {
+    CaseGate gate;
     form.expect(node, kGateMembers);
     if (!form.is_right()) return gate;
     gate.figure = form.text(node, "figure", "");

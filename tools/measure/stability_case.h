@@ -23,7 +23,7 @@ namespace overlook::measure {
 constexpr int kCaseVersion = 1;
 
 // A number that a run must keep.
-struct Gate {
+struct CaseGate {
     std::string figure;         // one of figure_names()
     double most = 0;            // the figure is at most this
     std::string of = "all";     // "geometry" or "image" methods, or "all"
@@ -45,7 +45,7 @@ struct Case {
     std::string what;
     std::string scene, flight;  // paths; empty = not there yet
     CaseSettings settings;
-    std::vector<Gate> gates;
+    std::vector<CaseGate> gates;
     std::vector<std::string> methods;  // of scene::kMethods
     std::vector<std::string> runs;     // of methods
 };

@@ -1,0 +1,126 @@
+// The stability suite, tiny: the default variant keeps its gates, and a method that is broken is seen to be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "formats/atomic_file.h"
+#include "tests/formats/scratch_folder.h"
+#include "tests/gl/fixture.h"
+#include "tools/measure/stability/suite.h"
+
+namespace overlook::measure {
+namespace {
+
+// The fixture's hills, flown over northwards in small steps.
+struct Hills {
+    World world;
+    scene::Flight flight;
+
+    Hills() {
+        world.name = "hills";
+        world.content_hash = "the same hills";
+        world.terrain = std::make_unique<terrain::Terrain>(test::hilly_terrain(129));
+        world.refiner.emplace(*world.terrain);
+        world.look.anisotropy = 1;
+        EXPECT_TRUE(upload(world));
+        view::Camera camera = test::from_south(*world.terrain, 96, 96);
+        world.base = camera;
+        flight.interpolation = scene::Interpolation::linear;
+        const glm::dvec3& at_m = camera.position_m;
+        flight.keys.push_back({0, {at_m.x, at_m.y, at_m.z}, camera.heading_deg, camera.pitch_deg, {}});
+        flight.keys.push_back({3, {at_m.x, at_m.y + 90, at_m.z}, camera.heading_deg, camera.pitch_deg, {}});
+    }
+    Stage stage(const gl::Renderer& renderer, uint32_t frames) { return {world, renderer, 96, 96, frames, 1, ""}; }
+};
+
+Finding found(CaseRunner run, Stage stage, const Case& each, const scene::Flight& flight, const char* method) {
+    std::vector<MethodSpec> specs = *specs_from({method}, {});
+    Result<std::vector<Finding>> findings = run(stage, each, flight, specs);
+    EXPECT_TRUE(findings) << findings.error().message;
+    return findings ? findings->front() : Finding{};
+}
+
+TEST(StabilityRun, SwitchesAreSeenOnlyWhereLevelsPop) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 4);
+    EXPECT_EQ(found(run_jitter, stage, {}, hills.flight, "terrain:morph").figures.at("switches_after_first_second"), 0);
+    EXPECT_GT(found(run_jitter, stage, {}, hills.flight, "terrain").figures.at("switches_after_first_second"), 0);
+}
+
+TEST(StabilityRun, ErrorAboveTheOneAskedIsSeen) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 3);
+    Finding right = found(run_yaw, stage, {}, hills.flight, "terrain:morph@samples=1");
+    EXPECT_EQ(right.figures.at("frames_above_twice_asked_error"), 0);
+    EXPECT_EQ(right.figures.at("hole_pixels"), 0);
+    Finding broken = found(run_yaw, stage, {}, hills.flight, "terrain:morph@samples=1@error-px=4");
+    EXPECT_EQ(broken.figures.at("frames_above_twice_asked_error"), 3);
+    ASSERT_TRUE(broken.worst);
+    EXPECT_NE(broken.worst->test.pixels, broken.worst->reference.pixels);
+}
+
+TEST(StabilityRun, PopIndexIsWorseWhereLevelsPop) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 8);
+    double morphed = found(run_dolly, stage, {}, hills.flight, "terrain:morph@error-px=3").figures.at("pop_index");
+    double popping = found(run_dolly, stage, {}, hills.flight, "terrain@error-px=3").figures.at("pop_index");
+    EXPECT_LT(morphed, popping);
+}
+
+TEST(StabilityRun, PicturesDependOnTheCameraAlone) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 3);
+    Case each;
+    each.settings.world_moves_m = {1e5, 1e7};
+    each.settings.changed_pixel = 0.001;
+    each.settings.resize_shares = {0.5, 1.25};
+    EXPECT_EQ(found(run_back_and_forth, stage, each, hills.flight, "terrain:morph").figures.at("path_difference_grey"), 0);
+    EXPECT_EQ(found(run_resize, stage, each, hills.flight, "terrain:morph").figures.at("stale_pixels"), 0);
+    EXPECT_LE(found(run_moved_world, stage, each, hills.flight, "terrain:morph").figures.at("changed_pixel_share"), 1e-4);
+}
+
+TEST(StabilitySuite, HoldsItsGatesAgainstTheBaselineThatPops) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 2);
+    ScratchFolder folder;
+    Case each{"S02", "jitter", "unused", folder / "flight.json", {}, {}, {"terrain"}, {"terrain"}};
+    each.gates.push_back({"switches_after_first_second", 0, "all", -1});
+    ASSERT_TRUE(write_file(each.flight, std::string_view(scene::json_from_flight(hills.flight))));
+    Result<SuiteResult> result = run_suite(stage, {each}, *specs_from({"terrain:morph", "terrain"}, {}), [](double) {});
+    ASSERT_TRUE(result) << result.error().message;
+    ASSERT_EQ(result->verdicts.size(), 2u);
+    EXPECT_TRUE(result->verdicts[0].is_kept());
+    EXPECT_FALSE(result->verdicts[1].is_kept());
+    EXPECT_TRUE(is_kept(*result));  // the baseline's misses are shown, not held against the suite
+    result->verdicts[1].spec = result->verdicts[0].spec;
+    EXPECT_FALSE(is_kept(*result));
+    EXPECT_TRUE(result->owed.empty());
+}
+
+TEST(StabilitySuite, OwesWhatIsNotReady) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 2);
+    Result<std::vector<Case>> cases = read_cases(OVERLOOK_SOURCE_DIR "/samples/stability");
+    ASSERT_TRUE(cases) << cases.error().message;
+    std::vector<std::string> owed;
+    for (Case& each : *cases) {
+        std::vector<std::string> ready = each.runs;
+        for (const std::string& method : each.methods) {
+            if (std::find(ready.begin(), ready.end(), method) == ready.end()) owed.push_back(each.number + " " + method);
+        }
+    }
+    Result<SuiteResult> result = run_suite(stage, *cases, {}, [](double) {});
+    ASSERT_TRUE(result) << result.error().message;
+    std::vector<std::string> said;
+    for (const Owed& each : result->owed) said.push_back(each.number + " " + each.method);
+    EXPECT_EQ(said, owed);  // every case that the files call ready has its runner
+}
+
+}  // namespace
+}  // namespace overlook::measure

@@ -1,0 +1,188 @@
+// The cases that are judged on what is decided: which vertices, at which error, promised how well.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/terrain/predict.h"
+#include "runtime/view/error_budget.h"
+#include "tools/measure/honesty/terrain_honesty.h"
+#include "tools/measure/numbers/honesty.h"
+#include "tools/measure/stability/stage.h"
+#include "tools/measure/stability/surface.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr double kSeen_px = 0.1;      // a vertex that comes or goes by less does not switch anything
+constexpr uint32_t kMostSlopes = 8;   // frames; every sample of each is measured
+constexpr uint32_t kSettled = 20;     // frames after which a budget has to be kept
+constexpr double kFirstBudget = 0.8;  // of the triangles of the first frame at the error asked
+constexpr double kBudgetBand = 0.05;  // a budget is met within this share of it
+
+struct Switching {
+    uint64_t came_or_went = 0, switches = 0, while_still = 0;
+    double greatest_px = 0;
+    uint32_t greatest_frame = 0;
+};
+
+bool stands_still(const view::Camera& a, const view::Camera& b) {
+    return a.position_m == b.position_m && a.heading_deg == b.heading_deg && a.pitch_deg == b.pitch_deg;
+}
+
+// Of two frames after each other: the vertices of one that the other lacks, and how far the surface there moved at once.
+void compare(const Surface& here, const Surface& there, const view::Camera& camera, uint32_t frame, bool is_still,
+             Switching& all) {
+    for (uint32_t sample : here.vertices()) {
+        if (there.is_vertex(sample)) continue;
+        double jump_px = here.distance_px(sample, there.height_m(sample), camera);
+        if (std::isnan(jump_px)) continue;
+        ++all.came_or_went;
+        if (is_still) ++all.while_still;
+        if (jump_px > kSeen_px) ++all.switches;
+        if (jump_px <= all.greatest_px) continue;
+        all.greatest_px = jump_px;
+        all.greatest_frame = frame;
+    }
+}
+
+Switching switching_of(const Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras, double step_s) {
+    const terrain::Terrain& terrain = *stage.world.terrain;
+    Switching all;
+    Surface before(terrain), now(terrain);
+    terrain::Cut cut;
+    for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+        stage.world.refiner->cut_by_pixels(cameras[frame], setting(spec, "error-px"), cut, morph_of(spec));
+        now.take(cut);
+        // Frames whose step from the one before ends after the first second.
+        if (frame > 0 && (frame - 1) * step_s >= 1) {
+            bool is_still = stands_still(cameras[frame - 1], cameras[frame]);
+            compare(now, before, cameras[frame], frame, is_still, all);
+            compare(before, now, cameras[frame], frame, is_still, all);
+        }
+        std::swap(before, now);
+    }
+    return all;
+}
+
+// What a flight of counted triangles under a budget halved at `middle` showed.
+struct Budgeted {
+    uint32_t frames_until_met = 0;
+    double miss_share = 0;
+    uint32_t changes_of_sign = 0;
+};
+Budgeted judge_budget(const std::vector<double>& costs, size_t middle, double budget) {
+    Budgeted found;
+    auto miss = [&](size_t frame) { return std::abs(costs[frame] - budget) / budget; };
+    int sign = 0;
+    for (size_t frame = middle; frame < costs.size(); ++frame) {
+        size_t after = frame - middle;
+        if (miss(frame) > kBudgetBand) found.frames_until_met = uint32_t(after + 1);
+        if (after >= kSettled) found.miss_share = std::max(found.miss_share, miss(frame));
+        int now = costs[frame] > budget ? 1 : -1;
+        if (after <= kSettled && sign != 0 && now != sign) ++found.changes_of_sign;
+        sign = now;
+    }
+    return found;
+}
+
+}  // namespace
+
+Result<std::vector<Finding>> run_jitter(Stage& stage, const Case&, const scene::Flight& flight,
+                                        std::span<const MethodSpec> specs) {
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
+    std::vector<Finding> findings;
+    for (const MethodSpec& spec : specs) {
+        Switching all = switching_of(stage, spec, cameras, flight.step_s);
+        Finding finding;
+        finding.figures["switches_after_first_second"] = double(all.switches);
+        finding.frames = uint32_t(cameras.size());
+        finding.sentence = fmt::format(
+            "{} vertices came or went, {} of them while the camera stood still; {} moved the surface at once by more "
+            "than {} px, the worst by {:.3f} px.",
+            all.came_or_went, all.while_still, all.switches, kSeen_px, all.greatest_px);
+        Result<Shot> shot = shot_of(stage, spec, cameras[all.greatest_frame], all.greatest_frame);
+        if (!shot) return tl::unexpected(shot.error());
+        finding.worst = std::move(*shot);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_slopes(Stage& stage, const Case&, const scene::Flight& flight,
+                                        std::span<const MethodSpec> specs) {
+    Stage few = stage;
+    few.frames = stage.frames == 0 ? kMostSlopes : std::min(stage.frames, kMostSlopes);
+    std::vector<view::Camera> cameras = cameras_of(few, flight, Pick::spread);
+    std::vector<Finding> findings;
+    for (const MethodSpec& spec : specs) {
+        Finding finding;
+        PromiseTally tally;
+        uint32_t worst_frame = 0;
+        double worst_px = -1;
+        terrain::Cut cut;
+        cut.wants_codes = true;
+        for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+            stage.world.refiner->cut_by_pixels(cameras[frame], setting(spec, "error-px"), cut, morph_of(spec));
+            std::vector<float> predicted_px, measured_px;
+            terrain::predict_triangles(*stage.world.terrain, cut, cameras[frame], setting(spec, "error-px"), predicted_px);
+            measure_triangles(*stage.world.terrain, cut, cameras[frame], measured_px);
+            tally.add(predicted_px, measured_px);
+            double most = 0;
+            for (float each : measured_px) most = std::max(most, double(each));
+            if (most > worst_px) worst_frame = frame;
+            worst_px = std::max(worst_px, most);
+        }
+        Honesty honesty = honesty_of(tally.predicted_px, tally.measured_px);
+        finding.figures["honesty"] = honesty.ratio_max;
+        finding.frames = uint32_t(cameras.size());
+        finding.sentence = fmt::format(
+            "Of {} triangles seen {} do worse than they promise; the worst is {:.3f} px off, {:.3f} px promised at most.",
+            honesty.count, honesty.above_prediction, honesty.measured_max_px, honesty.predicted_max_px);
+        Result<Shot> shot = shot_of(stage, spec, cameras[worst_frame], worst_frame);
+        if (!shot) return tl::unexpected(shot.error());
+        finding.worst = std::move(*shot);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, const scene::Flight& flight,
+                                               std::span<const MethodSpec> specs) {
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
+    size_t middle = cameras.size() / 2;
+    std::vector<Finding> findings;
+    for (const MethodSpec& spec : specs) {
+        terrain::Cut cut;
+        stage.world.refiner->cut_by_pixels(cameras[0], setting(spec, "error-px"), cut, morph_of(spec));
+        view::ErrorBudget budget{kFirstBudget * double(cut.triangle_count()), setting(spec, "error-px"), false};
+        view::ErrorController controller(budget);
+        std::vector<double> costs;
+        for (size_t frame = 0; frame < cameras.size(); ++frame) {
+            if (frame == middle) {
+                budget.cost *= each.settings.budget_share;
+                controller.set_budget(budget);
+            }
+            stage.world.refiner->cut_by_pixels(cameras[frame], controller.error_px(), cut, morph_of(spec));
+            costs.push_back(double(cut.triangle_count()));
+            controller.frame_done(costs.back());
+        }
+        Budgeted found = judge_budget(costs, middle, budget.cost);
+        Finding finding;
+        finding.figures["budget_miss_share"] = found.miss_share;
+        finding.figures["frames_until_budget_met"] = found.frames_until_met;
+        finding.figures["changes_of_sign"] = found.changes_of_sign;
+        finding.frames = uint32_t(cameras.size());
+        finding.sentence =
+            fmt::format("{:.0f} triangles from frame {} on; {:.0f} in the frame before, {:.0f} in the last, at {:.2f} px.",
+                        budget.cost, middle, costs[middle - 1], costs.back(), controller.error_px());
+        MethodSpec last = spec;
+        for (auto& [name, value] : last.settings) value = name == "error-px" ? controller.error_px() : value;
+        Result<Shot> shot = shot_of(stage, last, cameras.back(), uint32_t(cameras.size() - 1));
+        if (!shot) return tl::unexpected(shot.error());
+        finding.worst = std::move(*shot);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,193 @@
+// The cases that are judged on frames beside the reference.
+#include <algorithm>
+
+#include "tools/measure/capture.h"
+#include "tools/measure/figures.h"
+#include "tools/measure/stability/stage.h"
+
+namespace overlook::measure {
+namespace {
+
+Result<CourseResult> fly(Stage& stage, std::vector<view::Camera> cameras, double step_s, std::span<const MethodSpec> specs) {
+    Course course{{specs.begin(), specs.end()}, std::move(cameras), step_s};
+    add_floors(course.specs);
+    return run_course(stage.world, course, stage.renderer, stage.cache_folder, [](double) {});
+}
+
+double greatest(const RunResult& run, std::string_view name) {
+    return percentiles_of(run, name).max;
+}
+
+std::optional<Shot> shown(const WorstFrame& worst) {
+    if (!worst.is_there) return std::nullopt;
+    return Shot{worst.frame, worst.test, worst.reference};
+}
+
+// Flies the spread frames and counts holes; S03, S04, S06, S07 and S08 begin so.
+Result<std::vector<Finding>> count_holes(Stage& stage, const std::vector<view::Camera>& cameras, double step_s,
+                                         std::span<const MethodSpec> specs) {
+    Result<CourseResult> course = fly(stage, cameras, step_s, specs);
+    if (!course) return tl::unexpected(course.error());
+    std::vector<Finding> findings;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        const RunResult& run = course->runs[i];
+        Finding finding;
+        double holes = 0;
+        for (double each : values_of(run, figure("hole_px"))) holes += each;
+        finding.figures["hole_pixels"] = holes;
+        finding.figures["silhouette_p95_px"] = greatest(run, "s_p95_px");
+        finding.frames = uint32_t(cameras.size());
+        finding.worst = shown(run.worst_e);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
+// Pixels of the frame in which the surface stands nearer than the near plane.
+Result<uint64_t> pixels_cut(Stage& stage, const MethodSpec& spec, const view::Camera& camera) {
+    constexpr double kNearer = 1.0 / 16;
+    Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, 1);
+    if (!target) return tl::unexpected(target.error());
+    view::Camera closer = camera;
+    closer.near_m *= kNearer;
+    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    method->decide(closer, 0);
+    method->draw(*target);
+    Frame frame = captured(*target, *target, closer);
+    auto is_cut = [&](float depth_m) { return double(depth_m) < camera.near_m; };
+    return uint64_t(std::count_if(frame.depth_m.begin(), frame.depth_m.end(), is_cut));
+}
+
+}  // namespace
+
+Result<std::vector<Finding>> run_dolly(Stage& stage, const Case&, const scene::Flight& flight,
+                                       std::span<const MethodSpec> specs) {
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::in_row);
+    Result<CourseResult> course = fly(stage, cameras, flight.step_s, specs);
+    if (!course) return tl::unexpected(course.error());
+    std::vector<Finding> findings;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        const RunResult& run = course->runs[i];
+        Finding finding;
+        finding.figures["pop_index"] = run.pop.index;
+        finding.frames = uint32_t(cameras.size());
+        finding.worst = shown(run.worst_w);
+        finding.sentence = fmt::format(
+            "The greatest unrest above full geometry's is {:.4f} luma, in frame {}, tile {}, {}; median {:.4f}, "
+            "full geometry's {:.4f}.",
+            run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Flight& flight, std::span<const MethodSpec> specs) {
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
+    if (!findings) return findings;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        Finding& finding = (*findings)[i];
+        double worst_px = 0, above = 0;
+        for (const view::Camera& camera : cameras) {
+            double error_px = displacement_px(stage, specs[i], camera);
+            worst_px = std::max(worst_px, error_px);
+            above += error_px > 2 * stage.asked_px ? 1 : 0;
+        }
+        finding.figures["frames_above_twice_asked_error"] = above;
+        finding.sentence = fmt::format("No source sample is drawn farther than {:.3f} px from its place, {} px asked.", worst_px,
+                                       stage.asked_px);
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scene::Flight& flight,
+                                           std::span<const MethodSpec> specs) {
+    // One camera a key: the first frame after each teleport.
+    std::vector<view::Camera> all = cameras_of(stage, flight, Pick::all), arrivals;
+    for (const scene::Key& key : flight.keys) {
+        arrivals.push_back(all[std::min(all.size() - 1, size_t(key.time_s / flight.step_s + 0.5))]);
+    }
+    Result<std::vector<Finding>> findings = count_holes(stage, arrivals, flight.step_s, specs);
+    if (!findings) return findings;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        Finding& finding = (*findings)[i];
+        // A cut depends on the camera alone, so that the frames after the first are the first again.
+        double worst_px = 0;
+        for (const view::Camera& camera : arrivals) worst_px = std::max(worst_px, displacement_px(stage, specs[i], camera));
+        finding.figures["frames_until_error_met"] = worst_px <= stage.asked_px ? 0 : double(all.size());
+        finding.sentence = fmt::format(
+            "In the very frames of arrival no source sample is drawn farther than {:.3f} px from its "
+            "place, {} px asked.",
+            worst_px, stage.asked_px);
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_skimming(Stage& stage, const Case&, const scene::Flight& flight,
+                                          std::span<const MethodSpec> specs) {
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    // The eye is 1.2 times as high above the ground as its near plane is away.
+    Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
+    if (!findings) return findings;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        uint64_t cut_px = 0;
+        for (const view::Camera& camera : cameras) {
+            Result<uint64_t> in_frame = pixels_cut(stage, specs[i], camera);
+            if (!in_frame) return tl::unexpected(in_frame.error());
+            cut_px += *in_frame;
+        }
+        (*findings)[i].figures["near_plane_cuts"] = double(cut_px);
+        (*findings)[i].sentence =
+            fmt::format("Drawn again with a near plane 16 times as near, {} pixels show ground before the near plane of {} m.",
+                        cut_px, cameras.front().near_m);
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene::Flight& flight,
+                                         std::span<const MethodSpec> specs) {
+    Result<std::vector<Finding>> findings = count_holes(stage, cameras_of(stage, flight, Pick::spread), flight.step_s, specs);
+    if (!findings) return findings;
+    for (Finding& finding : *findings) {
+        finding.sentence = fmt::format("In the worst frame 95 % of the outline stands within {:.2f} px of where it should.",
+                                       finding.figures["silhouette_p95_px"]);
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::Flight& flight,
+                                       std::span<const MethodSpec> specs) {
+    Result<std::vector<Finding>> findings = count_holes(stage, cameras_of(stage, flight, Pick::spread), flight.step_s, specs);
+    if (!findings) return findings;
+    for (Finding& finding : *findings) {
+        finding.figures["fallbacks_unsaid"] = 0;
+        finding.sentence = "A terrain is baked for every place: it has nothing to fall back to, and nothing to say.";
+    }
+    return findings;
+}
+
+Result<std::vector<Finding>> run_dropping(Stage& stage, const Case& each, const scene::Flight& flight,
+                                          std::span<const MethodSpec> specs) {
+    std::vector<view::Camera> whole = cameras_of(stage, flight, Pick::in_row), kept;
+    for (size_t i = 0; i < whole.size(); ++i) {
+        if ((i + 1) % each.settings.drop_every != 0) kept.push_back(whole[i]);
+    }
+    Result<CourseResult> undropped = fly(stage, whole, flight.step_s, specs);
+    if (!undropped) return tl::unexpected(undropped.error());
+    Result<CourseResult> dropped = fly(stage, kept, flight.step_s, specs);
+    if (!dropped) return tl::unexpected(dropped.error());
+    std::vector<Finding> findings;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        const RunResult& run = dropped->runs[i];
+        Finding finding;
+        finding.figures["pop_index_ratio"] = run.pop.index / undropped->runs[i].pop.index;
+        finding.frames = uint32_t(kept.size());
+        finding.worst = shown(run.worst_w);
+        finding.sentence = fmt::format("Pop index {:.3f} with {} of {} frames dropped, {:.3f} with none.", run.pop.index,
+                                       whole.size() - kept.size(), whole.size(), undropped->runs[i].pop.index);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
+}  // namespace overlook::measure

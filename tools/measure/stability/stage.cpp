@@ -1,0 +1,60 @@
+#include "tools/measure/stability/stage.h"
+
+#include <algorithm>
+
+#include "runtime/view/flight.h"
+#include "tools/measure/honesty/terrain_honesty.h"
+
+namespace overlook::measure {
+
+std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick) {
+    uint32_t whole = scene::frame_count(flight);
+    bool takes_all = pick == Pick::all || stage.frames == 0 || stage.frames >= whole;
+    uint32_t count = takes_all ? whole : stage.frames;
+    view::Camera base = stage.world.base;
+    base.width_px = stage.width_px;
+    base.height_px = stage.height_px;
+    std::vector<view::Camera> cameras;
+    for (uint32_t i = 0; i < count; ++i) {
+        uint64_t frame = i;
+        if (!takes_all && pick == Pick::spread && count > 1) frame = uint64_t(i) * (whole - 1) / (count - 1);
+        view::Camera camera = view::camera_at(flight, scene::frame_time_s(flight, frame), base);
+        cameras.push_back(view::camera_into(stage.world.transform, camera));
+    }
+    return cameras;
+}
+
+uint32_t samples_of(const MethodSpec& spec) {
+    return uint32_t(setting(spec, "samples"));
+}
+
+Result<ImageRgb8> draw_once(Method& method, const view::Camera& camera, uint32_t frame, uint32_t samples) {
+    Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, samples);
+    if (!target) return tl::unexpected(target.error());
+    method.decide(camera, frame);
+    method.draw(*target);
+    return target->read();
+}
+
+Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame) {
+    Result<ImageRgb8> test = draw_once(*make_method(spec, stage.world), camera, frame, samples_of(spec));
+    if (!test) return tl::unexpected(test.error());
+    Result<ReferenceRenderer> renderer =
+        ReferenceRenderer::make(stage.world, stage.renderer, camera.width_px, camera.height_px, stage.cache_folder);
+    if (!renderer) return tl::unexpected(renderer.error());
+    Result<Frame> reference = renderer->frame(camera);
+    if (!reference) return tl::unexpected(reference.error());
+    return Shot{frame, std::move(*test), {reference->width, reference->height, std::move(reference->rgb)}};
+}
+
+double displacement_px(const Stage& stage, const MethodSpec& spec, const view::Camera& camera) {
+    terrain::Cut cut;
+    stage.world.refiner->cut_by_pixels(camera, setting(spec, "error-px"), cut, morph_of(spec));
+    std::vector<float> measured_px;
+    measure_triangles(*stage.world.terrain, cut, camera, measured_px);
+    float greatest = 0;
+    for (float each : measured_px) greatest = std::max(greatest, each);
+    return double(greatest);
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,80 @@
+// What the stability suite's cases share: the world on the card, the size of the pictures, the flight's cameras.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/measure/methods.h"
+#include "tools/measure/run.h"
+#include "tools/measure/stability_case.h"
+
+namespace overlook::measure {
+
+struct Stage {
+    World& world;  // uploaded
+    gl::Renderer renderer;
+    uint32_t width_px = 320, height_px = 240;
+    uint32_t frames = 0;       // at most so many of a flight where pictures are judged; 0 = all
+    double asked_px = 1;       // the error that was asked for, whatever a method makes of it
+    std::string cache_folder;  // for reference frames; empty = none
+};
+
+// A frame beside what it should have been.
+struct Shot {
+    uint32_t frame = 0;
+    ImageRgb8 test, reference;
+};
+
+// What a case found out about one method.
+struct Finding {
+    std::map<std::string, double> figures;  // by the names of the case's gates
+    std::string sentence;
+    uint32_t frames = 0;
+    std::optional<Shot> worst;
+};
+
+// Which of a flight's frames.
+enum class Pick {
+    all,     // at the flight's own step
+    in_row,  // the first stage.frames, at the flight's own step: for what changes from frame to frame
+    spread,  // stage.frames over the whole flight: for what each frame is by itself
+};
+std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick);
+
+// One picture of a method as it stands. Fails with Exit::impossible (targets).
+Result<ImageRgb8> draw_once(Method& method, const view::Camera& camera, uint32_t frame, uint32_t samples);
+uint32_t samples_of(const MethodSpec& spec);
+
+// A frame of a new method and the reference's. Fails as ReferenceRenderer does.
+Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame);
+
+// One of the case's ways to run: a finding for each spec, in their order.
+using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// Cases judged on frames beside the reference: S01, S03, S04, S06, S07, S08, S16.
+Result<std::vector<Finding>> run_dolly(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_yaw(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_teleports(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_skimming(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_horizon(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_climb(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_dropping(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// Cases judged by pictures that should be the same: S12, S17, S20.
+Result<std::vector<Finding>> run_moved_world(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_resize(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// Cases judged on what is decided: S02, S11, S19.
+Result<std::vector<Finding>> run_jitter(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_slopes(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_halved_budget(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// The greatest distance on the screen, pixels, between a source sample and where the cut of this spec draws it.
+double displacement_px(const Stage& stage, const MethodSpec& spec, const view::Camera& camera);
+
+}  // namespace overlook::measure

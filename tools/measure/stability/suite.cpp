@@ -1,0 +1,88 @@
+#include "tools/measure/stability/suite.h"
+
+#include <algorithm>
+
+namespace overlook::measure {
+namespace {
+
+struct Ready {
+    std::string_view number;
+    CaseRunner run;
+};
+constexpr Ready kReady[] = {
+    {"S01", run_dolly},          {"S02", run_jitter},   {"S03", run_yaw},    {"S04", run_teleports},
+    {"S06", run_skimming},       {"S07", run_horizon},  {"S08", run_climb},  {"S11", run_slopes},
+    {"S12", run_moved_world},    {"S16", run_dropping}, {"S17", run_resize}, {"S19", run_halved_budget},
+    {"S20", run_back_and_forth},
+};
+
+CaseRunner runner_of(const std::string& number) {
+    for (const Ready& ready : kReady) {
+        if (ready.number == number) return ready.run;
+    }
+    return nullptr;
+}
+
+// The gates that concern methods which draw geometry, as all today do.
+std::vector<HeldGate> held(const Case& each, const Finding& finding, double asked_px) {
+    std::vector<HeldGate> gates;
+    for (const CaseGate& gate : each.gates) {
+        if (gate.of == "image") continue;
+        double limit = gate.over_asked_px >= 0 ? asked_px + gate.over_asked_px : gate.most;
+        gates.push_back({gate.figure, finding.figures.at(gate.figure), limit});
+    }
+    return gates;
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Result<void> run_case(Stage& stage, const Case& each, std::span<const MethodSpec> specs, SuiteResult& result) {
+    CaseRunner run = runner_of(each.number);
+    std::vector<MethodSpec> concerned;
+    for (const MethodSpec& spec : specs) {
+        if (run != nullptr && has(each.runs, spec.name)) concerned.push_back(spec);
+    }
+    for (const std::string& method : each.methods) {
+        if (run == nullptr || !has(each.runs, method)) result.owed.push_back({each.number, each.what, method});
+    }
+    if (concerned.empty()) return {};
+    Result<scene::Flight> flight = scene::read_flight(each.flight);
+    if (!flight) return tl::unexpected(flight.error());
+    Result<std::vector<Finding>> findings = run(stage, each, *flight, concerned);
+    if (!findings) return tl::unexpected(findings.error());
+    for (size_t i = 0; i < concerned.size(); ++i) {
+        Finding& finding = (*findings)[i];
+        std::vector<HeldGate> gates = held(each, finding, stage.asked_px);
+        result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding)});
+    }
+    return {};
+}
+
+}  // namespace
+
+bool Verdict::is_kept() const {
+    return std::all_of(gates.begin(), gates.end(), [](const HeldGate& gate) { return gate.is_kept(); });
+}
+
+bool is_baseline(const MethodSpec& spec) {
+    return spec.name == "terrain" && morph_of(spec) == 0;
+}
+
+bool is_kept(const SuiteResult& result) {
+    return std::all_of(result.verdicts.begin(), result.verdicts.end(),
+                       [](const Verdict& verdict) { return is_baseline(verdict.spec) || verdict.is_kept(); });
+}
+
+Result<SuiteResult> run_suite(Stage& stage, const std::vector<Case>& cases, std::span<const MethodSpec> specs,
+                              const std::function<void(double)>& done) {
+    SuiteResult result;
+    for (size_t i = 0; i < cases.size(); ++i) {
+        if (Result<void> ran = run_case(stage, cases[i], specs, result); !ran) return tl::unexpected(ran.error());
+        done(double(i + 1) / double(cases.size()));
+    }
+    return result;
+}
+
+}  // namespace overlook::measure

@@ -1,0 +1,50 @@
+// The stability suite: every case for every method that it concerns, and whether its gates were kept.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/measure/stability/stage.h"
+
+namespace overlook::measure {
+
+struct HeldGate {
+    std::string figure;
+    double value = 0, limit = 0;
+    bool is_kept() const { return value <= limit; }
+};
+
+// One case and one method.
+struct Verdict {
+    std::string number, what;  // of the case
+    MethodSpec spec;
+    std::vector<HeldGate> gates;
+    Finding finding;
+    bool is_kept() const;
+};
+
+// A case that a method owes.
+struct Owed {
+    std::string number, what, method;
+};
+
+struct SuiteResult {
+    std::vector<Verdict> verdicts;  // in the cases' order
+    std::vector<Owed> owed;
+};
+
+// Runs the cases that are ready for the specs' methods; the rest is owed. Each case flies its own flight over the stage's world.
+// done: told the share of work done. Fails as scene::read_flight, Exit::impossible (targets), Exit::cannot_write (reference
+// frames).
+Result<SuiteResult> run_suite(Stage& stage, const std::vector<Case>& cases, std::span<const MethodSpec> specs,
+                              const std::function<void(double)>& done);
+
+// The terrain that exchanges its levels at once: what the morphing one is seen beside; its misses are shown and not held against
+// it.
+bool is_baseline(const MethodSpec& spec);
+
+// Whether all but the baselines kept their gates.
+bool is_kept(const SuiteResult& result);
+
+}  // namespace overlook::measure
