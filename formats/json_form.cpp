@@ -1,9 +1,9 @@
 // The form of a JSON document, checked with the place of the first mistake.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "formats/json.h"
+#include "formats/names.h"
 
 namespace overlook::json {
 namespace {
@@ -149,20 +149,10 @@ std::string_view nearest(std::string_view wrong, std::span<const std::string_vie
     std::string_view best;
     size_t best_edits = 0;
     for (std::string_view name : known) {
-        std::vector<size_t> edits(name.size() + 1);
-        std::iota(edits.begin(), edits.end(), size_t(0));
-        for (size_t i = 0; i < wrong.size(); ++i) {
-            size_t diagonal = edits[0];
-            edits[0] = i + 1;
-            for (size_t j = 0; j < name.size(); ++j) {
-                size_t replaced = diagonal + (wrong[i] != name[j]);
-                diagonal = edits[j + 1];
-                edits[j + 1] = std::min({replaced, edits[j + 1] + 1, edits[j] + 1});
-            }
-        }
-        if (best.empty() || edits.back() < best_edits) {
+        size_t edits = edit_distance(wrong, name);
+        if (best.empty() || edits < best_edits) {
             best = name;
-            best_edits = edits.back();
+            best_edits = edits;
         }
     }
     return best;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "formats/names.h"
 #include "runtime/command/command.h"
 
 namespace overlook::command {
@@ -38,22 +39,6 @@ std::optional<uint64_t> bytes_from_text(const std::string& text) {
     int shift = 10 * int(power + 1);
     if (value > kMost >> shift) return std::nullopt;
     return value << shift;
-}
-
-// The number of letters to change, drop or add to turn a into b (Levenshtein 1966).
-size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<size_t> row(b.size() + 1);
-    for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (size_t i = 1; i <= a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= b.size(); ++j) {
-            size_t kept = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({kept, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
 }
 
 void collect_names(const CLI::App& app, std::vector<std::string>& names) {

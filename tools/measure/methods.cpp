@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "formats/names.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -27,22 +28,6 @@ struct Asked {
     MethodSpec spec;
     std::vector<bool> is_given;  // of each setting
 };
-
-// Letters to change, drop or add (Levenshtein 1966).
-size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<size_t> row(b.size() + 1);
-    for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (size_t i = 1; i <= a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= b.size(); ++j) {
-            size_t kept = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({kept, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
 
 // "; did you mean terrain?", or nothing if no name is near.
 template <class Kinds>
