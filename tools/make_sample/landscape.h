@@ -26,7 +26,7 @@ struct Landscape {
     double slope_limit = 0;  // tangent
 };
 
-// The same bytes for the same options, with any number of threads and any compiler. 8 to 11 s for 1025 a side
+// The same bytes for the same options, with any number of threads and any compiler. 8 to 16 s for 1025 a side
 // on two cores. O(n log n), about 100 bytes a sample.
 Landscape make_landscape(const LandscapeOptions& options);
 
