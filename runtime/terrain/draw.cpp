@@ -110,15 +110,22 @@ Result<Drawing> Drawing::make(const Terrain& terrain) {
     return made;
 }
 
+Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
+    std::string vertex =
+        shaders::kTerrainVertexInputs + (shader.vertex.empty() ? shaders::kUnmoved : shader.vertex) + shaders::kTerrainVertexMain;
+    std::string fragment = std::string(shaders::kAir) + shaders::kTerrainFragment + shader.fragment;
+    return gl::Program::make(shader.name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
+}
+
 Result<void> Drawing::make_programs() {
+    const std::string vertex_source =
+        std::string(shaders::kTerrainVertexInputs) + shaders::kUnmoved + shaders::kTerrainVertexMain;
     const std::string ground_source = std::string(shaders::kAir) + shaders::kTerrainFragment;
-    const std::string shaded_source = ground_source + shaders::kShadedMain;
     const std::string wireframe_source = ground_source + shaders::kWireframeMain;
     const std::string sky_source = std::string(shaders::kAir) + shaders::kSkyFragment;
-    auto shaded =
-        gl::Program::make("terrain", {{GL_VERTEX_SHADER, shaders::kTerrainVertex}, {GL_FRAGMENT_SHADER, shaded_source}});
+    auto shaded = program({"terrain", "", shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
-    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, shaders::kTerrainVertex},
+    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source},
                                                      {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},
                                                      {GL_FRAGMENT_SHADER, wireframe_source}});
     if (!wireframe) return tl::unexpected(wireframe.error());
@@ -150,6 +157,7 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform1i(program.at("has_texture"), has_texture_ ? 1 : 0);
     glUniform1i(program.at("colours"), 0);
     glUniform2f(program.at("height_range_m"), float(lowest_m_), float(highest_m_));
+    glUniform2f(program.at("place_per_m"), float(1 / width_m), float(-1 / height_m));
     glUniform1f(program.at("haze_per_m"), float(0.5 * options.haze / std::hypot(width_m, height_m)));
     glUniform1f(program.at("line_px"), float(options.line_px));
 }
@@ -168,7 +176,7 @@ void Drawing::draw_sky(const view::Camera& camera) const {
     glDepthMask(GL_TRUE);
 }
 
-void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
+void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
     program.use();
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
@@ -183,7 +191,7 @@ void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, c
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 
-void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options) {
+void Drawing::take(const Cut& cut) {
     // A draw call counts in 31 bits; a cut of so many triangles would be hours of work anyway.
     size_t most_indices = size_t(std::numeric_limits<GLsizei>::max()) / 3 * 3;
     std::span<const uint32_t> indices = std::span(cut.indices).first(std::min(cut.indices.size(), most_indices));
@@ -192,7 +200,10 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     static_assert(sizeof(Cut::Morph) == 8);
     if (!cut.morphs.empty()) morphs_.fill(std::as_bytes(std::span(cut.morphs)));
     uploaded_bytes_ = indices.size_bytes() + cut.morphs.size() * sizeof(Cut::Morph);
+}
 
+void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options) {
+    take(cut);
     target.bind();
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
@@ -203,12 +214,12 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     if (options.look == Look::split) {
         glEnable(GL_SCISSOR_TEST);
         glScissor(0, 0, half_px, GLsizei(target.height_px()));
-        draw_cut(wireframe_, camera, options);
+        draw_with(wireframe_, camera, options);
         glScissor(half_px, 0, GLsizei(target.width_px()) - half_px, GLsizei(target.height_px()));
-        draw_cut(shaded_, camera, options);
+        draw_with(shaded_, camera, options);
         glDisable(GL_SCISSOR_TEST);
     } else {
-        draw_cut(options.look == Look::wireframe ? wireframe_ : shaded_, camera, options);
+        draw_with(options.look == Look::wireframe ? wireframe_ : shaded_, camera, options);
     }
     target.resolve();
 }

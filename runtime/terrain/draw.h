@@ -7,6 +7,7 @@
 #include "formats/terrain.h"
 #include "runtime/gl/objects.h"
 #include "runtime/gl/program.h"
+#include "runtime/gl/surface.h"
 #include "runtime/gl/target.h"
 #include "runtime/terrain/refine.h"
 #include "runtime/view/camera.h"
@@ -39,15 +40,19 @@ class Drawing {
     // The same arguments give the same picture.
     void draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options);
 
-    // What the last draw() sent to the card.
+    // Draws with a cut what a method colours by itself, into whatever is bound.
+    Result<gl::Program> program(const gl::SurfaceShader& shader) const;
+    void take(const Cut& cut);  // what draw_with() draws from now on
+    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
+    void draw_sky(const view::Camera& camera) const;
+
+    // What the last draw() or take() sent to the card.
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
   private:
     Drawing() = default;
     Result<void> make_programs();
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
-    void draw_sky(const view::Camera& camera) const;
-    void draw_cut(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
 
     uint32_t width_ = 0, height_ = 0;
     double metres_per_column_ = 1, metres_per_row_ = 1;
@@ -63,6 +68,24 @@ class Drawing {
     gl::Texture texture_;
     gl::Program shaded_, wireframe_, sky_;
     uint64_t uploaded_bytes_ = 0;
+};
+
+// A terrain's cut as a thing that any method may colour. The drawing must outlive it.
+class CutSurface : public gl::Surface {
+  public:
+    CutSurface(Drawing& drawing, const DrawOptions& options) : drawing_(drawing), options_(options) {}
+
+    // What is drawn from now on.
+    void take(const Cut& cut) { drawing_.take(cut); }
+    uint64_t uploaded_bytes() const { return drawing_.uploaded_bytes(); }
+
+    Result<gl::Program> program(const gl::SurfaceShader& shader) const override { return drawing_.program(shader); }
+    void draw(const gl::Program& program, const view::Camera& camera) override { drawing_.draw_with(program, camera, options_); }
+    void draw_background(const view::Camera& camera) override { drawing_.draw_sky(camera); }
+
+  private:
+    Drawing& drawing_;
+    DrawOptions options_;
 };
 
 }  // namespace overlook::terrain
