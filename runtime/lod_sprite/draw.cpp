@@ -136,7 +136,7 @@ void Painter::set_keys(const gl::Program& program, const view::Camera& camera, c
     glUniform1f(program.at("raise"), options.raises && !options.keys.empty() ? 1.0f : 0.0f);
     glUniform1f(program.at("tolerance_px"), float(options.tolerance_px));
     glUniform1i(program.at("is_slab_tested"), options.tests_slab);
-    glUniform1i(program.at("is_step_tested"), options.tests_steps);
+    glUniform1i(program.at("is_place_tested"), options.tests_places);
 }
 
 Result<void> Painter::draw(const gl::Target& target, gl::Surface& surface, const view::Camera& camera,
@@ -150,7 +150,11 @@ Result<void> Painter::draw(const gl::Target& target, gl::Surface& surface, const
     surface.draw_background(camera);
     (*program)->use();
     set_keys(**program, camera, options);
+    bool raises = options.raises && !options.keys.empty();
+    // A ray that leaves the raised surface has been through it.
+    if (raises) glEnable(GL_CULL_FACE);
     surface.draw(**program, camera);
+    glDisable(GL_CULL_FACE);
     target.resolve();
     return {};
 }

@@ -35,7 +35,7 @@ struct NovelOptions {
     uint32_t iterations = 4;    // look-ups a pixel and key, at least 1
     bool raises = true;         // the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;     // what a key shows must lie where the coarse surface allows it
-    bool tests_steps = true;    // never mix colours across a step in depth
+    bool tests_places = true;   // a texel counts only where it is in its own place in this frame
     bool shows_sources = false;
 };
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "formats/names.h"
+#include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -17,9 +18,26 @@ constexpr SettingKind kErrorPx{"error-px", 0.01, 1000, 1, false};
 constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
 constexpr std::array<SettingKind, 2> kTerrainSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
+constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
+                                                         SettingKind{"low-error-px", 0.01, 1000, 16, false},
+                                                         SettingKind{"key-error-px", 0.01, 1000, 1, false},
+                                                         SettingKind{"key-scale", 1, 4, 2, true},
+                                                         SettingKind{"guard", 1, 3, 1.15, false},
+                                                         SettingKind{"slots", 2, 16, 4, true},
+                                                         SettingKind{"fade-frames", 0, 60, 8, true},
+                                                         SettingKind{"sliced", 0, 1, 1, true},
+                                                         SettingKind{"near", 0, 1, 1, true},
+                                                         SettingKind{"tolerance-px", 0.05, 10, 0.5, false},
+                                                         SettingKind{"look-ups", 1, 16, 4, true},
+                                                         SettingKind{"outlines", 0, 1, 1, true},
+                                                         SettingKind{"slab-test", 0, 1, 1, true},
+                                                         SettingKind{"place-test", 0, 1, 1, true},
+                                                         SettingKind{"sources", 0, 1, 0, true},
+                                                         kSamples};
 constexpr std::array<std::string_view, 1> kTerrainVariants = {"morph"};
 constexpr double kMorph = 0.5;  // the player's default
-constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings},
+constexpr std::array<MethodKind, 3> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings},
+                                              MethodKind{"lod-sprite", {}, kSpriteSettings},
                                               MethodKind{"full", {}, kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
@@ -204,6 +222,7 @@ double morph_of(const MethodSpec& spec) {
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
+    if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     assert(spec.name == "terrain");
     return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
 }
