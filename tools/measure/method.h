@@ -46,10 +46,11 @@ struct MethodSpec {
     bool operator==(const MethodSpec&) const = default;
 };
 
-// "terrain:variant@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
+// "terrain:hard@error-px=2@samples=4": the name of a run in all outputs. Every setting, the defaults too; of a method with more
+// than three settings error-px, samples and those that are not the defaults.
 std::string label_of(const MethodSpec& spec);
 
-// "terrain:variant": all runs of one curve share it.
+// "terrain:hard": all runs of one curve share it.
 std::string family_of(const MethodSpec& spec);
 
 // The value of a setting that the method has.
