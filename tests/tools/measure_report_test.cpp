@@ -44,6 +44,12 @@ RunResult run_of(const MethodSpec& spec, double base_ms, double e) {
         record.numbers.luma_difference = 0.01;
         run.frames.push_back(record);
     }
+    if (!is_floor(spec)) {
+        for (uint32_t frame : {0u, 9u}) {
+            std::vector<float> predicted_px = {0.5f, 1, 0}, measured_px = {0.25f, 0.75f, 0};
+            run.frames[frame].numbers.g = run.g.add(predicted_px, measured_px);
+        }
+    }
     run.worst_e = worst_of(5, e + 0.005);
     run.worst_w = worst_of(3, e / 10);
     return run;
@@ -117,7 +123,8 @@ TEST(FramesTable, LeavesEmptyWhatWasNotTaken) {
 }
 
 TEST(FramesTable, NamesTheUnitOfEveryNumberThatHasOne) {
-    static const std::regex kCounts("triangles|vertex_references|draw_calls|tested|events|luma_difference");
+    static const std::regex kCounts(
+        "triangles|vertex_references|draw_calls|tested|events|luma_difference|g_max|g_median|g_above");
     for (const Figure& one : figures()) {
         std::string name(one.name);
         bool has_unit = std::regex_search(name, std::regex("_(ms|px|bytes|db|luma|flip)$"));
@@ -132,6 +139,17 @@ TEST(RunsTable, HasWhatTheChartsDraw) {
     EXPECT_EQ(cell(rows, 1, "frame_ms_p50"), "9");
     EXPECT_DOUBLE_EQ(std::stod(cell(rows, 1, "e_p99_flip")), 0.205);
     EXPECT_EQ(cell(rows, 3, "is_floor"), "1");
+}
+
+TEST(HonestyTable, HasARowForEveryStepOfWhatWasPromised) {
+    auto rows = rows_of(honesty_csv(a_course()));
+    ASSERT_EQ(rows.size(), 3u);  // half a pixel and one; of nothing promised there is no ratio
+    EXPECT_EQ(cell(rows, 1, "method"), "terrain");
+    EXPECT_EQ(cell(rows, 1, "things"), "4");  // two runs of two frames
+    EXPECT_NEAR(std::stod(cell(rows, 1, "promised_px")), 0.5, 0.1);
+    EXPECT_DOUBLE_EQ(std::stod(cell(rows, 1, "measured_p50_px")), 0.5 * std::stod(cell(rows, 1, "promised_px")));
+    EXPECT_EQ(cell(rows, 2, "worst_px"), "0.75");
+    EXPECT_EQ(cell(rows, 2, "worst_promised_px"), "1");
 }
 
 const Json& resolved(const Json& schema, const Json& part) {
@@ -229,6 +247,21 @@ TEST(Gates, AreBrokenByAPopAHoleOrABrokenPromise) {
     EXPECT_EQ(broken(course.runs[0]), "predicted_error_px ");
 }
 
+TEST(Gates, AreBrokenByADishonestOrAnIdlePromise) {
+    auto broken = [](float predicted, float measured) {
+        RunResult run = a_course().runs[0];
+        for (int i = 0; i < 9; ++i) run.g.add(std::vector<float>{predicted}, std::vector<float>{measured});
+        std::string names;
+        for (const Gate& gate : gates_of(run)) names += gate.is_kept() ? "" : std::string(gate.name) + " ";
+        return names;
+    };
+    EXPECT_EQ(broken(1, 1), "");
+    EXPECT_EQ(broken(1, 1.001f), "g_max ");
+    EXPECT_EQ(broken(0, 0.001f), "g_max ");
+    EXPECT_EQ(broken(1, 0.2f), "g_median ");
+    EXPECT_EQ(gates_of(a_course().runs[2]).size(), 2u);  // the floor promises nothing
+}
+
 TEST(Gates, AreAtTheFloorWithinTwoPercent) {
     CourseResult course = a_course();
     EXPECT_TRUE(is_at_floor(course.runs[2], course.runs[2]));
@@ -264,6 +297,21 @@ TEST(Sentences, NameTheCheapestAtTheFloorOrTheNearest) {
                         "terrain@error-px=1@samples=4, for 0.167 of the floor's cost."),
               std::string::npos)
         << chart_sentence("front_ms", course);
+}
+
+TEST(Sentences, SayWhetherEveryPromiseIsKept) {
+    CourseResult course = a_course();
+    EXPECT_EQ(
+        chart_sentence("promise", course),
+        "Of 12 triangles in 4 frames of 2 runs, none lie farther from a source sample that they cover than was promised of "
+        "them; the greatest share of a promise used is 0.75 (terrain@error-px=1@samples=4). Nothing at all was promised of 4: "
+        "none of them are out of place. The median triangle uses 0.5, in terrain@error-px=1@samples=4 0.5; under 0.3 a "
+        "promise is called idle. Every promise is kept.");
+    course.runs[1].g.add(std::vector<float>{2}, std::vector<float>{3});
+    std::string text = chart_sentence("promise", course);
+    EXPECT_NE(text.find("1 lie farther"), std::string::npos) << text;
+    EXPECT_NE(text.find("used is 1.5 (terrain@error-px=4@samples=4)"), std::string::npos) << text;
+    EXPECT_NE(text.find("Not every promise is kept."), std::string::npos) << text;
 }
 
 std::set<std::string> links_of(const std::string& html) {

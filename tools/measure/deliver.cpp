@@ -60,8 +60,10 @@ void say_summary(const CourseResult& course, const RunSetup& setup, const std::s
 Result<void> deliver(const CourseResult& course, const RunSetup& setup, const std::string& folder,
                      const command::Common& common) {
     std::string json = runs_json(course, setup);
-    const std::pair<const char*, std::string> tables[] = {
-        {"frames.csv", frames_csv(course, setup.step_s)}, {"runs.csv", runs_csv(course)}, {"runs.json", json}};
+    const std::pair<const char*, std::string> tables[] = {{"frames.csv", frames_csv(course, setup.step_s)},
+                                                          {"runs.csv", runs_csv(course)},
+                                                          {"honesty.csv", honesty_csv(course)},
+                                                          {"runs.json", json}};
     for (const auto& [name, text] : tables) {
         if (Result<void> written = write_file(folder + "/" + name, std::string_view(text)); !written) return written;
     }

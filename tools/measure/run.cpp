@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <set>
 
 #include "runtime/gl/timer.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/numbers/frame_subset.h"
 
 namespace overlook::measure {
 namespace {
@@ -50,6 +52,13 @@ class Field {
         record.counters = running.method->draw(*running.target);
         record.draw_ms = drawing.finished_ms();
         return record;
+    }
+
+    // Measures what the frame that draw() left promises of each thing in it.
+    void take_g(size_t run) {
+        std::optional<Promises> promises = runs[run].method->promises();
+        if (!promises) return;
+        results[run].frames.back().numbers.g = results[run].g.add(promises->predicted_px, promises->measured_px);
     }
 
     // Takes the picture that draw() left.
@@ -163,6 +172,8 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
     if (!field) return tl::unexpected(field.error());
     find_floors(field->results);
 
+    std::vector<uint32_t> g_chosen = spread_frames(uint32_t(course.cameras.size()), kMostHonestyFrames);
+    std::set<uint32_t> g_frames(g_chosen.begin(), g_chosen.end());
     Judge judge;
     for (uint32_t frame = 0; frame < course.cameras.size(); ++frame) {
         const view::Camera& camera = course.cameras[frame];
@@ -172,6 +183,7 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
             size_t run = (frame + i) % course.specs.size();
             field->results[run].frames.push_back(field->draw(run, camera, frame));
             field->capture(run, camera);
+            if (g_frames.contains(frame)) field->take_g(run);
         }
         judge.judge(*field, frame, std::move(*truth));
         done(double(frame + 1) / double(course.cameras.size()));

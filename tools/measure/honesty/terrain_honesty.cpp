@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "formats/parallel.h"
+#include "runtime/terrain/predict.h"
 
 namespace overlook::measure {
 namespace {
@@ -94,12 +95,17 @@ void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut,
     });
 }
 
-void PromiseTally::add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px) {
-    for (size_t i = 0; i < predicted_of_cut_px.size(); ++i) {
-        if (double(measured_of_cut_px[i]) == kNotSeen) continue;
-        predicted_px.push_back(predicted_of_cut_px[i]);
-        measured_px.push_back(measured_of_cut_px[i]);
+Promises promises_of(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera, double error_px) {
+    std::vector<float> predicted_px, measured_px;
+    terrain::predict_triangles(terrain, cut, camera, error_px, predicted_px);
+    measure_triangles(terrain, cut, camera, measured_px);
+    Promises seen;
+    for (size_t i = 0; i < predicted_px.size(); ++i) {
+        if (double(measured_px[i]) == kNotSeen) continue;
+        seen.predicted_px.push_back(predicted_px[i]);
+        seen.measured_px.push_back(measured_px[i]);
     }
+    return seen;
 }
 
 }  // namespace overlook::measure

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "runtime/terrain/predict.h"
+#include "runtime/terrain/refine.h"
+#include "tools/measure/numbers/honesty.h"
 
 namespace overlook::measure {
 
@@ -16,10 +17,7 @@ constexpr double kNotSeen = -1;
 void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera,
                        std::vector<float>& measured_px);
 
-// Adds one cut's triangles, those seen, to what numbers/honesty.h judges.
-struct PromiseTally {
-    std::vector<float> predicted_px, measured_px;
-    void add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px);
-};
+// What a cut made with wants_codes for this camera at error_px promises of the triangles seen, and what they do.
+Promises promises_of(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera, double error_px);
 
 }  // namespace overlook::measure
