@@ -65,9 +65,15 @@ struct RunResult {
     WorstFrame worst_e, worst_w;
 };
 
+// Where the time of a run went; of no interest but to who waits for it.
+struct TimeSpent {
+    double references_ms = 0, methods_ms = 0, promises_ms = 0, numbers_ms = 0;
+};
+
 struct CourseResult {
     std::vector<RunResult> runs;  // as in Course::specs
     uint64_t references_drawn = 0, references_kept = 0, references_damaged = 0;
+    TimeSpent spent;
 };
 
 // Adds to specs the floor of each that has none yet.
