@@ -156,6 +156,18 @@ TEST(MeasuredCourse, TakesGOfWhatPromisesSomething) {
     EXPECT_TRUE(values_of(floor, figure("g_max")).empty());
 }
 
+TEST(MeasuredCourse, KeepsABudgetOfTriangles) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain@error-px=0.1", "terrain@error-px=0.1@triangles=1000"}, {});
+    CourseResult course = hills.run(context->renderer());
+    const RunResult &free = course.runs[0], &held = course.runs[1];
+    EXPECT_GT(percentiles_of(free, "triangles").max, 2000);
+    EXPECT_GT(held.frames.front().counters.triangle_count, 1000u);  // the first frame knows nothing of the next
+    EXPECT_LT(held.frames.back().counters.triangle_count, free.frames.back().counters.triangle_count / 2);
+    EXPECT_TRUE(is_honest(held.g.all())) << held.g.all().ratio_max;  // what it promises then, it keeps
+    expect_same(course, hills.run(context->renderer()));
+}
+
 TEST(MeasuredCourse, SeesABrokenPromiseOfTheFile) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills({"terrain@error-px=4"}, {});

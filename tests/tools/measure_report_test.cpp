@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/formats/schema_faults.h"
 #include "tests/formats/scratch_folder.h"
 #include "tools/measure/deliver.h"
 #include "tools/measure/figures.h"
@@ -152,55 +153,8 @@ TEST(HonestyTable, HasARowForEveryStepOfWhatWasPromised) {
     EXPECT_EQ(cell(rows, 2, "worst_promised_px"), "1");
 }
 
-const Json& resolved(const Json& schema, const Json& part) {
-    return part.contains("$ref") ? schema.at(Json::json_pointer(part["$ref"].get<std::string>().substr(1))) : part;
-}
-
-bool is_of(const std::string& type, const Json& value) {
-    if (type == "object") return value.is_object();
-    if (type == "array") return value.is_array();
-    if (type == "string") return value.is_string();
-    if (type == "boolean") return value.is_boolean();
-    if (type == "integer") return value.is_number_integer();
-    return type == "null" ? value.is_null() : value.is_number();
-}
-
-// What of a value its schema does not allow; as much of JSON Schema as ours uses.
-void check(const Json& schema, const Json& reference, const Json& value, const std::string& place,
-           std::vector<std::string>& wrong) {
-    const Json& part = resolved(schema, reference);
-    const Json& type = part.at("type");
-    bool is_right = false;
-    for (const Json& one : type.is_array() ? type : Json::array({type})) is_right = is_right || is_of(one, value);
-    if (!is_right) return wrong.push_back(place + ": another type");
-    if (part.contains("const") && part["const"] != value) wrong.push_back(place + ": another value");
-    if (part.contains("enum") && !std::count(part["enum"].begin(), part["enum"].end(), value))
-        wrong.push_back(place + ": no such value");
-    if (value.is_array()) {
-        for (const Json& one : value) check(schema, part.at("items"), one, place + "[]", wrong);
-    }
-    if (!value.is_object()) return;
-    const Json none = Json::object();
-    const Json& properties = part.contains("properties") ? part["properties"] : none;
-    for (const Json& name : part.value("required", Json::array())) {
-        if (!value.contains(name)) wrong.push_back(place + ": lacks " + name.get<std::string>());
-    }
-    for (const auto& [name, member] : value.items()) {
-        if (properties.contains(name)) {
-            check(schema, properties[name], member, place + "/" + name, wrong);
-        } else if (part.at("additionalProperties").is_object()) {
-            check(schema, part["additionalProperties"], member, place + "/" + name, wrong);
-        } else {
-            wrong.push_back(place + ": has " + name);
-        }
-    }
-}
-
 std::vector<std::string> faults_of(const Json& runs) {
-    Json schema = Json::parse(text_of_file(OVERLOOK_SOURCE_DIR "/samples/schema/runs.schema.json"));
-    std::vector<std::string> wrong;
-    check(schema, schema, runs, "", wrong);
-    return wrong;
+    return test::faults_of(runs, "runs.schema.json");
 }
 
 TEST(RunsJson, KeepsItsSchema) {
@@ -260,6 +214,20 @@ TEST(Gates, AreBrokenByADishonestOrAnIdlePromise) {
     EXPECT_EQ(broken(0, 0.001f), "g_max ");
     EXPECT_EQ(broken(1, 0.2f), "g_median ");
     EXPECT_EQ(gates_of(a_course().runs[2]).size(), 2u);  // the floor promises nothing
+}
+
+TEST(Gates, HoldABudgetOnceItHasSettled) {
+    RunResult run = run_of(*parse_method("terrain@triangles=1000"), 5, 0.2);
+    for (FrameRecord& frame : run.frames) frame.frame += 20;
+    run.frames[0].frame = 19;
+    run.frames[0].counters.triangle_count = 5000;
+    run.frames[0].counters.predicted_error_px = 7;
+    for (const Gate& gate : gates_of(run)) EXPECT_TRUE(gate.is_kept()) << gate.name;
+    run.frames[1].counters.triangle_count = 1051;
+    std::vector<Gate> gates = gates_of(run);
+    auto gate = std::find_if(gates.begin(), gates.end(), [](const Gate& one) { return one.name == "triangles"; });
+    ASSERT_NE(gate, gates.end());
+    EXPECT_FALSE(gate->is_kept());
 }
 
 TEST(Gates, AreAtTheFloorWithinTwoPercent) {

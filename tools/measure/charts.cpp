@@ -81,7 +81,8 @@ Chart front(const CourseResult& course, const std::string& name, const std::stri
         ++place;
     }
     chart.script +=
-        "swept(run) = strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
+        "swept(run) = strstrt(run, '@triangles=') > 0 ? gprintf('%.0s%c', real(substr(run, strstrt(run, '@triangles=') + 11, "
+        "strlen(run)))) : strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
         "strstrt(run . '@samples', '@samples') - 1) . ' px'\n";
     chart.script += "plot " + lines + dots;
     chart.script += fmt::format(

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 
+#include "tools/measure/methods.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -12,6 +14,8 @@ using O = std::optional<double>;
 
 constexpr double kMostPopIndex = 1.2;
 constexpr double kAtFloor = 1.02;
+constexpr double kBudgetBand = 0.05;  // as S19 of the stability suite, and
+constexpr uint32_t kSettledFrames = 20;
 
 // Of G, where there is any.
 template <class Value>
@@ -50,6 +54,14 @@ constexpr std::array<Figure, 23> kFigures = {{
      [](R r) -> O { return of_g(r, [](const Honesty& g) { return g.measured_max_px; }); }, true},
 }};
 
+double settled_triangles(const RunResult& run) {
+    double most = 0;
+    for (const FrameRecord& frame : run.frames) {
+        if (frame.frame >= kSettledFrames) most = std::max(most, double(frame.counters.triangle_count));
+    }
+    return most;
+}
+
 }  // namespace
 
 std::span<const Figure> figures() {
@@ -79,8 +91,11 @@ std::vector<Gate> gates_of(const RunResult& run) {
     if (values_of(run, figure("hole_px")).empty()) return gates;
     gates.push_back({"hole_px", percentiles_of(run, "hole_px").max, 0});
     gates.push_back({"pop_index", run.pop.index, kMostPopIndex});
+    double budget = budget_of(run.spec);
+    if (budget > 0) gates.push_back({"triangles", settled_triangles(run), (1 + kBudgetBand) * budget});
     for (const auto& [name, value] : run.spec.settings) {
-        if (name == "error-px") gates.push_back({"predicted_error_px", percentiles_of(run, "predicted_error_px").max, value});
+        if (name == "error-px" && budget == 0)
+            gates.push_back({"predicted_error_px", percentiles_of(run, "predicted_error_px").max, value});
     }
     if (run.g.all().count > 0) gates.push_back({"g_max", run.g.all().ratio_max, 1});
     if (has_ratios(run.g.all())) gates.push_back({"g_median", run.g.all().ratio_median, kIdleRatio, true});

@@ -33,8 +33,9 @@ struct Gate {
     bool is_least = false;
     bool is_kept() const { return is_least ? value >= limit : value <= limit; }
 };
-// Holes 0 and pop index 1.2 of every run; the predicted error of one that was asked for pixels; G of one that promises something
-// of each thing it draws: never more than 1, in the median at least 0.3. Empty for runs without pictures.
+// Holes 0 and pop index 1.2 of every run; the predicted error of one that was asked for pixels, or, within a budget, its
+// triangles from the 20th frame on, to 5 %; G of one that promises something of each thing it draws: never more than 1, in the
+// median at least 0.3. Empty for runs without pictures.
 std::vector<Gate> gates_of(const RunResult& run);
 
 // Whether E's 99th percentile (over pixels, then over frames) is at most 1.02 times the floor's.

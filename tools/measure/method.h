@@ -51,10 +51,11 @@ struct MethodSpec {
     bool operator==(const MethodSpec&) const = default;
 };
 
-// "terrain:hard@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
+// "terrain:hard@error-px=2@samples=4": every setting, the defaults too (but for a budget of none); the name of a run in all
+// outputs.
 std::string label_of(const MethodSpec& spec);
 
-// "terrain:hard": all runs of one curve share it.
+// "terrain:hard", or "terrain@triangles" for runs within a budget: all runs of one curve share it.
 std::string family_of(const MethodSpec& spec);
 
 // The value of a setting that the method has.

@@ -17,8 +17,9 @@ namespace {
 constexpr SettingKind kErrorPx{"error-px", 0.01, 1000, 1, false};
 constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
 constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
-constexpr std::array<SettingKind, 3> kTerrainSettings = {kErrorPx, kSamples, kMorph};
-constexpr std::array<SettingKind, 2> kHardSettings = {kErrorPx, kSamples};
+constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true};
+constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
+constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 constexpr std::array<MethodKind, 3> kKinds = {MethodKind{"terrain", "", kTerrainSettings},
                                               MethodKind{"terrain", "hard", kHardSettings},
@@ -154,13 +155,24 @@ std::span<const MethodKind> method_kinds() {
 }
 
 std::string family_of(const MethodSpec& spec) {
-    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+    std::string family = spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+    return budget_of(spec) > 0 ? family + "@" + std::string(kTriangles.name) : family;
 }
 
 std::string label_of(const MethodSpec& spec) {
     std::string label = family_of(spec);
-    for (const auto& [name, value] : spec.settings) label += fmt::format("@{}={}", name, value);
+    for (const auto& [name, value] : spec.settings) {
+        bool is_no_budget = name == kTriangles.name && value == 0;
+        if (!is_no_budget) label += fmt::format("@{}={}", name, value);
+    }
     return label;
+}
+
+double budget_of(const MethodSpec& spec) {
+    for (const auto& [name, value] : spec.settings) {
+        if (name == kTriangles.name) return value;
+    }
+    return 0;
 }
 
 double setting(const MethodSpec& spec, const std::string& name) {
@@ -209,7 +221,7 @@ double morph_of(const MethodSpec& spec) {
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     assert(spec.name == "terrain");
-    return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
+    return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));
 }
 
 }  // namespace overlook::measure

@@ -45,6 +45,9 @@ bool is_floor(const MethodSpec& spec);
 // How far a terrain's vertices morph (Refiner::cut_by_pixels): 0 of the variant "hard", whose vertices pop.
 double morph_of(const MethodSpec& spec);
 
+// Triangles that a frame may have, 0 = as many as its error takes.
+double budget_of(const MethodSpec& spec);
+
 // The spec must come from above; the world must outlive the method.
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world);
 
