@@ -272,13 +272,14 @@ TEST(Sentences, SayWhetherEveryPromiseIsKept) {
     EXPECT_EQ(
         chart_sentence("promise", course),
         "Of 12 triangles in 4 frames of 2 runs, none lie farther from a source sample that they cover than was promised of "
-        "them; the greatest share of a promise used is 0.75 (terrain@error-px=1@samples=4). Nothing at all was promised of 4: "
-        "none of them are out of place. The median triangle uses 0.5, in terrain@error-px=1@samples=4 0.5; under 0.3 a "
+        "them; the greatest share of a promise used is 0.75 (terrain@error-px=1@samples=4@morph=0.5). Nothing at all was "
+        "promised of 4: "
+        "none of them are out of place. The median triangle uses 0.5, in terrain@error-px=1@samples=4@morph=0.5 0.5; under 0.3 a "
         "promise is called idle. Every promise is kept.");
     course.runs[1].g.add(std::vector<float>{2}, std::vector<float>{3});
     std::string text = chart_sentence("promise", course);
     EXPECT_NE(text.find("1 lie farther"), std::string::npos) << text;
-    EXPECT_NE(text.find("used is 1.5 (terrain@error-px=4@samples=4)"), std::string::npos) << text;
+    EXPECT_NE(text.find("used is 1.5 (terrain@error-px=4@samples=4@morph=0.5)"), std::string::npos) << text;
     EXPECT_NE(text.find("Not every promise is kept."), std::string::npos) << text;
 }
 

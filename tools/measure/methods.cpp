@@ -148,6 +148,11 @@ Result<std::vector<Asked>> swept(const std::vector<Asked>& methods, std::string_
     return all;
 }
 
+// "terrain:hard".
+std::string named(const MethodSpec& spec) {
+    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+}
+
 }  // namespace
 
 std::span<const MethodKind> method_kinds() {
@@ -155,12 +160,11 @@ std::span<const MethodKind> method_kinds() {
 }
 
 std::string family_of(const MethodSpec& spec) {
-    std::string family = spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
-    return budget_of(spec) > 0 ? family + "@" + std::string(kTriangles.name) : family;
+    return budget_of(spec) > 0 ? named(spec) + "@" + std::string(kTriangles.name) : named(spec);
 }
 
 std::string label_of(const MethodSpec& spec) {
-    std::string label = family_of(spec);
+    std::string label = named(spec);
     for (const auto& [name, value] : spec.settings) {
         bool is_no_budget = name == kTriangles.name && value == 0;
         if (!is_no_budget) label += fmt::format("@{}={}", name, value);
