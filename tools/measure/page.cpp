@@ -78,13 +78,12 @@ std::string cells_of(const RunResult& run) {
         html += cell(short_number(times_ms.p99)) + cell(short_number(times_ms.p50));
     }
     html += cell(short_count(percentiles_of(run, "triangles").p50)) +
-            cell(short_bytes(percentiles_of(run, "uploaded_bytes").p50)) +
             cell(short_bytes(percentiles_of(run, "resident_bytes").max)) +
             cell(short_number(percentiles_of(run, "predicted_error_px").max));
     if (!run.worst_e.is_there) return html;
     const Honesty& g = run.g.all();
-    if (g.count == 0) return html + cell("") + cell("") + cell("");
-    return html + cell(short_number(g.measured_max_px)) + cell(short_number(g.ratio_max)) + cell(short_number(g.ratio_median));
+    if (g.count == 0) return html + cell("") + cell("");
+    return html + cell(short_number(g.measured_max_px)) + cell(short_number(g.ratio_max) + "; " + short_number(g.ratio_median));
 }
 
 std::string gates_text(const RunResult& run) {
@@ -104,8 +103,8 @@ std::string table_of_runs(const PageInput& input) {
     if (has_pictures) html += "<th>E p99</th><th>W p99</th><th>pop index</th>";
     html += "<th>ms p99</th><th>ms p50</th>";
     if (has_pictures) html += "<th>holes px</th><th>outline px, max</th>";
-    html += "<th>triangles p50</th><th>uploaded p50</th><th>held</th><th>promised px</th>";
-    if (has_pictures) html += "<th>measured px</th><th>G max</th><th>G median</th>";
+    html += "<th>triangles p50</th><th>held</th><th>promised px</th>";
+    if (has_pictures) html += "<th>measured px</th><th>G max; median</th>";
     html += "<th>gates</th></tr></thead>\n<tbody>\n";
     for (const RunResult& run : input.course.runs) {
         html += fmt::format("<tr{}><th scope=\"row\">{}</th>{}<td>{}</td></tr>\n", is_floor(run.spec) ? " class=\"floor\"" : "",
