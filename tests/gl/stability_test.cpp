@@ -6,7 +6,7 @@
 #include "formats/atomic_file.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
-#include "tools/measure/stability/suite.h"
+#include "tools/measure/stability/report.h"
 
 namespace overlook::measure {
 namespace {
@@ -91,12 +91,14 @@ TEST(StabilitySuite, HoldsItsGatesAgainstTheBaselineThatPops) {
     ScratchFolder folder;
     Case each{"S02", "jitter", "unused", folder / "flight.json", {}, {}, {"terrain"}, {"terrain"}};
     each.gates.push_back({"switches_after_first_second", 0, "all", -1});
+    each.note = "known & said";
     ASSERT_TRUE(write_file(each.flight, std::string_view(scene::json_from_flight(hills.flight))));
     Result<SuiteResult> result = run_suite(stage, {each}, *specs_from({"terrain", "terrain:hard"}, {}), [](double) {});
     ASSERT_TRUE(result) << result.error().message;
     ASSERT_EQ(result->verdicts.size(), 2u);
     EXPECT_TRUE(result->verdicts[0].is_kept());
     EXPECT_FALSE(result->verdicts[1].is_kept());
+    EXPECT_NE(stability_html(*result, {}, stage).find("known &amp; said"), std::string::npos);
     EXPECT_TRUE(is_kept(*result));  // the baseline's misses are shown, not held against the suite
     result->verdicts[1].spec = result->verdicts[0].spec;
     EXPECT_FALSE(is_kept(*result));
