@@ -19,6 +19,7 @@ constexpr Member kCaseMembers[] = {
     {"version", Kind::number, true, 1, 1e6},
     {"number", Kind::text, true},
     {"what", Kind::text, true},
+    {"note", Kind::text},
     {"scene", Kind::text},
     {"flight", Kind::text},
     {"settings", Kind::object},
@@ -168,6 +169,7 @@ Result<Case> parse_case(std::string_view text, const std::string& name) {
     Case made;
     made.number = form.text(form.root(), "number", "");
     made.what = form.text(form.root(), "what", "");
+    made.note = form.text(form.root(), "note", "");
     made.scene = form.text(form.root(), "scene", "");
     made.flight = form.text(form.root(), "flight", "");
     made.settings = read_settings(form, form.member(form.root(), "settings"));

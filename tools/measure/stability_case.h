@@ -4,7 +4,8 @@
 //      "scene": "../scenes/sample.json", "flight": "../flights/s01.json",     paths relative to the case's file
 //      "settings": {"drop_every": 7},
 //      "gates": [{"figure": "pop_index_ratio", "most": 1.1}],
-//      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"]}
+//      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"],
+//      "note": "what is known of a gate that is missed"}                     for the page; may be left out
 //
 // methods: whom the case concerns. runs: for which of them the case is ready to be run today; the others owe it. A case that no
 // method can run yet may be without scene and flight.
@@ -49,6 +50,7 @@ struct Case {
     std::vector<CaseGate> gates;
     std::vector<std::string> methods;  // of scene::kMethods
     std::vector<std::string> runs;     // of methods
+    std::string note{};                // what is known of a gate that is missed; empty = nothing
 };
 
 // The names of the figures that a gate may hold.

@@ -54,7 +54,7 @@ Result<void> run_case(Stage& stage, const Case& each, std::span<const MethodSpec
     for (size_t i = 0; i < concerned.size(); ++i) {
         Finding& finding = (*findings)[i];
         std::vector<HeldGate> gates = held(each, finding, stage.asked_px);
-        result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding)});
+        result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding), each.note});
     }
     return {};
 }
