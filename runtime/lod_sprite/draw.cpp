@@ -40,7 +40,7 @@ Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots) {
     return made;
 }
 
-Result<void> Painter::begin_key(uint32_t slot, const view::Camera& camera, uint32_t scale) {
+Result<void> Painter::begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale) {
     Sprite& sprite = sprites_[slot];
     uint32_t width_px = camera.width_px * scale, height_px = camera.height_px * scale;
     if (sprite.width_px != width_px || sprite.height_px != height_px) {
@@ -50,7 +50,7 @@ Result<void> Painter::begin_key(uint32_t slot, const view::Camera& camera, uint3
             return impossible("a key of {} x {} pixels is too large for this renderer ({} at most)", width_px, height_px,
                               most_px);
         }
-        sprite.colour = make_texture(GL_SRGB8_ALPHA8, width_px, height_px);
+        sprite.colour = make_texture(GL_RGBA8, width_px, height_px);
         sprite.depth = make_texture(GL_DEPTH_COMPONENT32F, width_px, height_px);
         GLuint id = 0;
         glCreateFramebuffers(1, &id);
@@ -64,19 +64,18 @@ Result<void> Painter::begin_key(uint32_t slot, const view::Camera& camera, uint3
         sprite.height_px = height_px;
     }
     sprite.camera = camera;
-    const GLfloat farthest = 0, black[4] = {0, 0, 0, 0};
-    glClearNamedFramebufferfv(sprite.framebuffer.id(), GL_DEPTH, 0, &farthest);
-    glClearNamedFramebufferfv(sprite.framebuffer.id(), GL_COLOR, 0, black);
+    gl::bind_for_drawing(sprite.framebuffer.id(), width_px, height_px);
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    surface.draw_background(camera);
     return {};
 }
 
 void Painter::draw_into_key(uint32_t slot, gl::Surface& surface) {
     const Sprite& sprite = sprites_[slot];
     gl::bind_for_drawing(sprite.framebuffer.id(), sprite.width_px, sprite.height_px);
-    glEnable(GL_FRAMEBUFFER_SRGB);
     key_program_.use();
     surface.draw(key_program_, sprite.camera);
-    glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
 DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
@@ -93,23 +92,23 @@ DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
     return grid;
 }
 
-Result<const gl::Program*> Painter::novel_program(const gl::Surface& surface, const NovelOptions& options) {
-    uint32_t keys = uint32_t(options.keys.size());
-    uint32_t name = keys + 8 * options.iterations + (options.shows_sources ? 1 << 16 : 0);
+Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const NovelOptions& options, bool is_own) {
+    uint32_t keys = is_own ? 0 : uint32_t(options.keys.size());
+    uint32_t name = keys + (is_own ? 0 : 8 * options.look_ups) + (options.shows_sources ? 1 << 16 : 0);
     auto known = novel_programs_.find(name);
     if (known == novel_programs_.end()) {
-        std::string settings = fmt::format("#define KEYS {}\n#define ITERATIONS {}\n{}", std::max(keys, 1u), options.iterations,
+        std::string settings = fmt::format("#define KEYS {}\n#define LOOK_UPS {}\n{}", keys, options.look_ups,
                                            options.shows_sources ? "#define SHOWS_SOURCES\n" : "");
-        Result<gl::Program> made =
-            surface.program({fmt::format("novel view with {} keys", keys), std::string(shaders::kSlack) + shaders::kRaised,
-                             settings + shaders::kSlack + shaders::kNovelMain});
+        Result<gl::Program> made = surface.program(
+            {fmt::format("novel view with {} keys", keys), is_own ? "" : std::string(shaders::kSlack) + shaders::kRaised,
+             settings + shaders::kSlack + (is_own ? shaders::kOwnMain : shaders::kNovelMain)});
         if (!made) return tl::unexpected(made.error());
         known = novel_programs_.emplace(name, std::move(*made)).first;
     }
     return &known->second;
 }
 
-void Painter::set_keys(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const {
+void Painter::set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const {
     for (size_t i = 0; i < options.keys.size(); ++i) {
         const Sprite& sprite = sprites_[options.keys[i].slot];
         Link link = link_of(sprite.camera, camera);
@@ -129,11 +128,9 @@ void Painter::set_keys(const gl::Program& program, const view::Camera& camera, c
     glUniform1f(program.at("near_m"), float(camera.near_m));
     glUniform1f(program.at("low_error_px"), float(options.low_error_px));
     glUniform1f(program.at("near_error_px"), float(options.near_error_px));
-    // Without a key everything is near.
-    glUniform1f(program.at("near_depth_m"),
-                options.keys.empty() ? std::numeric_limits<float>::max() : float(options.near_depth_m));
+    glUniform1f(program.at("near_depth_m"), float(options.near_depth_m));
     glUniform1f(program.at("most_slack_m"), float(options.most_slack_m));
-    glUniform1f(program.at("raise"), options.raises && !options.keys.empty() ? 1.0f : 0.0f);
+    glUniform1f(program.at("raise"), options.raises ? 1.0f : 0.0f);
     glUniform1f(program.at("tolerance_px"), float(options.tolerance_px));
     glUniform1i(program.at("is_slab_tested"), options.tests_slab);
     glUniform1i(program.at("is_place_tested"), options.tests_places);
@@ -141,20 +138,23 @@ void Painter::set_keys(const gl::Program& program, const view::Camera& camera, c
 
 Result<void> Painter::draw(const gl::Target& target, gl::Surface& surface, const view::Camera& camera,
                            const NovelOptions& options) {
-    assert(options.keys.size() <= kMostKeysAtOnce && options.iterations >= 1);
-    Result<const gl::Program*> program = novel_program(surface, options);
-    if (!program) return tl::unexpected(program.error());
+    assert(options.keys.size() <= kMostKeysAtOnce && options.look_ups >= 1);
     target.bind();
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     surface.draw_background(camera);
-    (*program)->use();
-    set_keys(**program, camera, options);
-    bool raises = options.raises && !options.keys.empty();
-    // A ray that leaves the raised surface has been through it.
-    if (raises) glEnable(GL_CULL_FACE);
-    surface.draw(**program, camera);
-    glDisable(GL_CULL_FACE);
+    // First what keys show, on the raised surface, so that it hides the surface itself; that is then drawn where nothing is yet.
+    for (bool is_own : {false, true}) {
+        if (!is_own && options.keys.empty()) continue;
+        Result<const gl::Program*> program = program_of(surface, options, is_own);
+        if (!program) return tl::unexpected(program.error());
+        (*program)->use();
+        set_uniforms(**program, camera, options);
+        // A ray that leaves the raised surface has been through it.
+        if (!is_own && options.raises) glEnable(GL_CULL_FACE);
+        surface.draw(**program, camera);
+        glDisable(GL_CULL_FACE);
+    }
     target.resolve();
     return {};
 }

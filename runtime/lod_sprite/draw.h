@@ -30,13 +30,13 @@ struct NovelOptions {
     double low_error_px = 16;  // the promise of the coarse cut
     double near_error_px = 1;  // of what is nearer than near_depth_m, which is drawn without sprites
     double near_depth_m = 0;
-    double most_slack_m = 1e9;  // no surface is farther than that from its coarse form
-    double tolerance_px = 0.5;  // how far from its place a key's texel may be shown
-    uint32_t iterations = 4;    // look-ups a pixel and key, at least 1
-    bool raises = true;         // the coarse surface up to where it covers the true one, so that outlines are kept
-    bool tests_slab = true;     // what a key shows must lie where the coarse surface allows it
-    bool tests_places = true;   // a texel counts only where it is in its own place in this frame
-    bool shows_sources = false;
+    double most_slack_m = 1e9;   // no surface is farther than that from its coarse form
+    double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
+    uint32_t look_ups = 3;       // a pixel and key, at least 1
+    bool raises = true;          // the coarse surface up to where it covers the true one, so that outlines are kept
+    bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
+    bool tests_places = true;    // a texel counts only where it is in its own place in this frame
+    bool shows_sources = false;  // grey: the first key; yellow: another; blue: near; red: no key shows it
 };
 
 // Draws into keys and novel frames. A context must be current whenever it is used, and when it goes.
@@ -45,9 +45,9 @@ class Painter {
     // slots: how many keys are kept. Fails with Exit::our_bug where a shader does not compile.
     static Result<Painter> make(const gl::Surface& surface, uint32_t slots);
 
-    // Empties a slot for a key of this camera, whose picture has camera.width_px * scale columns. Fails with Exit::impossible
-    // where the renderer cannot have such a picture.
-    Result<void> begin_key(uint32_t slot, const view::Camera& camera, uint32_t scale);
+    // Empties a slot, but for the surface's background, for a key of this camera, whose picture has camera.width_px * scale
+    // columns. Fails with Exit::impossible where the renderer cannot have such a picture.
+    Result<void> begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale);
     // Adds what the surface draws now, as the key's camera sees it.
     void draw_into_key(uint32_t slot, gl::Surface& surface);
     // The key's depths (metres along its axis, infinity = nothing), every `step`-th texel of every `step`-th row, from the top.
@@ -65,12 +65,12 @@ class Painter {
         gl::Texture colour, depth;
         gl::Framebuffer framebuffer;
     };
-    Result<const gl::Program*> novel_program(const gl::Surface& surface, const NovelOptions& options);
-    void set_keys(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const;
+    Result<const gl::Program*> program_of(const gl::Surface& surface, const NovelOptions& options, bool is_own);
+    void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const;
 
     std::vector<Sprite> sprites_;
     gl::Program key_program_;
-    std::map<uint32_t, gl::Program> novel_programs_;  // by keys, iterations and what is shown
+    std::map<uint32_t, gl::Program> novel_programs_;  // by keys, look-ups and what is shown
 };
 
 }  // namespace overlook::lod_sprite

@@ -3,10 +3,10 @@
 
 namespace overlook::lod_sprite::shaders {
 
-// A key keeps the thing's own linear colour; the texture encodes it. What the air does is put on anew in every frame.
+// A key keeps the picture as it is shown, air and all.
 inline constexpr char kKeyMain[] = R"(
 void main() {
-    colour = vec4(own_colour(surface.relative_m), 1.0);
+    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
 }
 )";
 
@@ -31,13 +31,27 @@ vec3 placed(vec3 relative_m) {
 }
 )";
 
-// KEYS is the count of keys, ITERATIONS how often a place is looked up anew, SHOWS_SOURCES whether colours tell the source.
+// What no key shows is drawn as it is, with the thing's own colours, after what keys show.
+inline constexpr char kOwnMain[] = R"(
+void main() {
+#ifdef SHOWS_SOURCES
+    bool is_near = dot(eye_forward, surface.relative_m) < near_depth_m;
+    float light = dot(own_colour(surface.relative_m), vec3(0.21, 0.72, 0.07));
+    colour = vec4(encoded((is_near ? vec3(0.2, 0.5, 1.0) : vec3(1.0, 0.25, 0.15)) * (0.15 + light)), 1.0);
+#else
+    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
+#endif
+}
+)";
+
+// KEYS is the count of keys, LOOK_UPS how often a place is looked up anew, SHOWS_SOURCES whether colours tell the source.
 // Key space: axes of the key's camera, z forward, origin at its eye.
 //
 // A pixel's ray enters the raised surface somewhere; what it meets behind is looked for in a key by iteration: take a point on
 // the ray, look up how deep the key is in its direction, go on with the point of the ray as deep (for the novel camera) as what
 // the key shows there. That settles where ray and key's surface meet. The four texels round that place are then asked one by one:
-// each is a point of the true surface, and counts only if its own place in this frame is where it would be shown.
+// each is a point of the true surface (or of the sky, infinitely far), and counts only if its own place in this frame is where it
+// would be shown.
 inline constexpr char kNovelMain[] = R"(
 uniform mat3 key_from_world[KEYS];
 uniform vec3 eye_in_key_m[KEYS];
@@ -49,67 +63,56 @@ layout(binding = 8) uniform sampler2D key_depths[KEYS];  // near / depth
 uniform float raise;
 uniform float tolerance_px;  // beside the distance of a texel's middle from the place looked up
 uniform bool is_slab_tested, is_place_tested;
-layout(depth_less) out float gl_FragDepth;
+const float kFarthest = 1e-7;  // of near / depth: the sky
 
-const int kUnknown = 0, kFound = 1, kEmpty = 2;
-
-struct Found {
-    int kind;
-    vec3 linear;
-    float depth_m;
-};
-
-// What key k shows on the ray whose point at depth t is ray_m * t, looked for from low_m on, where the coarse surface is.
-Found find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
+// What key k shows on the ray whose point at depth t is ray_m * t, looked for from low_m on, where the coarse surface is: its
+// encoded colour and 1, or 0s.
+vec4 find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     vec3 origin = eye_in_key_m[k], along = key_from_world[k] * ray_m, forward = key_from_world[k] * eye_forward;
     float near_in_key_m = key_near_m[k];
-    vec2 tangents = key_tangents[k], size = vec2(textureSize(key_depths[k], 0)), edge = 1.0 / size;
+    vec2 tangents = key_tangents[k], size = vec2(textureSize(key_depths[k], 0));
+    vec2 scale = 0.5 / tangents;
     float t = low_m;
     vec2 uv = vec2(0.5);
-    bool is_inside = true, is_sky = false, was_free = false;
-    for (int i = 0; i < ITERATIONS; ++i) {
+    bool is_before = true, was_free = false;
+    for (int i = 0; i < LOOK_UPS; ++i) {
         vec3 at = origin + along * t;
-        is_inside = at.z > near_in_key_m;
-        uv = 0.5 + 0.5 * at.xy / (max(at.z, near_in_key_m) * tangents);
-        float inverse = texture(key_depths[k], uv).r;
-        is_sky = inverse <= 0.0;
-        float depth_m = near_in_key_m / max(inverse, 1e-12);
+        is_before = at.z > near_in_key_m;
+        vec2 tangent = at.xy / max(at.z, near_in_key_m);
+        uv = 0.5 + scale * tangent;
+        float depth_m = near_in_key_m / max(textureLod(key_depths[k], uv, 0.0).r, kFarthest);
         if (i == 0) was_free = depth_m > at.z * 1.001;
-        vec3 shown = vec3((2.0 * uv - 1.0) * tangents * depth_m, depth_m);
-        t = is_sky ? t : dot(forward, shown - origin);
+        t = dot(forward, vec3(tangent * depth_m, depth_m) - origin);
     }
-    Found found = Found(kUnknown, vec3(0.0), t);
-    is_inside = is_inside && all(greaterThan(uv, edge)) && all(lessThan(uv, 1.0 - edge));
-    if (!is_inside) return found;
-    if (is_sky) {
-        if (was_free) found.kind = kEmpty;
-        return found;
-    }
-
     vec2 corner = uv * size - 0.5, base = floor(corner), part = corner - base;
-    vec4 inverses = textureGather(key_depths[k], (base + 1.0) / size);  // texels (0, 1), (1, 1), (1, 0), (0, 0) from base
-    float sum = 0.0, depth_sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 texel = vec2(i == 1 || i == 2, i < 2);
-        vec2 share = mix(1.0 - part, part, texel);
-        float depth_m = near_in_key_m / max(inverses[i], 1e-12);
-        vec2 tangent = (2.0 * (base + texel + 0.5) / size - 1.0) * tangents;
-        float own_t = dot(forward, vec3(tangent * depth_m, depth_m) - origin);
-        vec3 off_m = vec3(tangent * depth_m, depth_m) - origin - along * own_t;
-        float texel_px = focal_px * 2.0 * length((texel - part) * tangents / size) * depth_m / max(own_t, 1e-6);
-        bool is_in_place = own_t > 0.0 && focal_px * length(off_m) <= (tolerance_px + texel_px) * own_t;
-        float weight = is_in_place || !is_place_tested ? share.x * share.y : 0.0;
-        found.linear += weight * texelFetch(key_colours[k], ivec2(base + texel), 0).rgb;
-        depth_sum += weight * own_t;
-        sum += weight;
-    }
-    if (sum < 0.05) return found;
-    found.linear /= sum;
-    found.depth_m = depth_sum / sum;
-    bool is_in_slab = abs(found.depth_m - low_m) <= 1.5 * slack_depth_m + 0.002 * low_m;
+    bool is_inside = is_before && all(greaterThanEqual(base, vec2(0.0))) && all(lessThan(base, size - 1.0));
+
+    vec4 depths_m = near_in_key_m / max(textureGather(key_depths[k], (base + 1.0) / size), kFarthest);
+    vec2 low_tangent = (2.0 * (base + 0.5) / size - 1.0) * tangents, texel_tangents = 2.0 * tangents / size;
+    vec4 right = vec4(0.0, 1.0, 1.0, 0.0), up = vec4(1.0, 1.0, 0.0, 0.0);  // the order of textureGather
+    vec4 x = (low_tangent.x + right * texel_tangents.x) * depths_m - origin.x;
+    vec4 y = (low_tangent.y + up * texel_tangents.y) * depths_m - origin.y;
+    vec4 z = depths_m - origin.z;
+    vec4 own_t = forward.x * x + forward.y * y + forward.z * z;
+    vec4 off_x = x - along.x * own_t, off_y = y - along.y * own_t, off_z = z - along.z * own_t;
+    vec4 off_squared = off_x * off_x + off_y * off_y + off_z * off_z;
+    vec4 away_x = (right - part.x) * texel_tangents.x, away_y = (up - part.y) * texel_tangents.y;
+    vec4 allowed = tolerance_px / focal_px * own_t + sqrt(away_x * away_x + away_y * away_y) * depths_m;
+    bvec4 in_place = lessThanEqual(off_squared, allowed * allowed);
+    vec4 weights = mix(vec4(1.0 - part.x), vec4(part.x), right) * mix(vec4(1.0 - part.y), vec4(part.y), up);
+    if (is_place_tested) weights *= vec4(in_place) * vec4(greaterThan(own_t, vec4(0.0)));
+    float sum = weights.x + weights.y + weights.z + weights.w;
+
+    ivec2 texel = ivec2(base);
+    vec3 shown = weights.x * texelFetch(key_colours[k], texel + ivec2(0, 1), 0).rgb +
+                 weights.y * texelFetch(key_colours[k], texel + ivec2(1, 1), 0).rgb +
+                 weights.z * texelFetch(key_colours[k], texel + ivec2(1, 0), 0).rgb +
+                 weights.w * texelFetch(key_colours[k], texel, 0).rgb;
+    float shown_m = dot(weights, own_t) / max(sum, 1e-6);
     // Beyond what the coarse surface allows only if the key saw the space before it empty.
-    if (is_in_slab || (was_free && found.depth_m > low_m) || !is_slab_tested) found.kind = kFound;
-    return found;
+    bool is_in_slab = abs(shown_m - low_m) <= 1.5 * slack_depth_m + 0.002 * low_m;
+    bool is_found = is_inside && sum > 0.05 && (is_in_slab || (was_free && shown_m > low_m) || !is_slab_tested);
+    return is_found ? vec4(shown / sum, 1.0) : vec4(0.0);
 }
 
 void main() {
@@ -122,32 +125,16 @@ void main() {
     float slack_depth_m = slack_m(surface.relative_m) * normal.z / fall;
     float low_m = depth_m + raise * slack_depth_m;
 
-    vec3 sum = vec3(0.0);
-    float weight = 0.0, depth_sum = 0.0;
-    bool is_empty = false;
-    int source = -1;
-    if (low_m >= near_depth_m) {
-        for (int k = 0; k < KEYS; ++k) {
-            Found found = find(k, ray_m, low_m, slack_depth_m);
-            is_empty = is_empty || found.kind == kEmpty;
-            if (found.kind != kFound) continue;
-            sum += key_weights[k] * found.linear;
-            depth_sum += key_weights[k] * found.depth_m;
-            weight += key_weights[k];
-            source = k;
-        }
-    }
-    if (weight == 0.0 && is_empty && raise > 0.0) discard;
-    vec3 linear = weight > 0.0 ? sum / weight : own_colour(ray_m * low_m);
-    float shown_m = weight > 0.0 ? depth_sum / weight : low_m;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < KEYS; ++k) {
+        vec4 found = key_weights[k] * find(k, ray_m, low_m, slack_depth_m);
 #ifdef SHOWS_SOURCES
-    float light = dot(linear, vec3(0.21, 0.72, 0.07));
-    vec3 tint = source < 0 ? (low_m < near_depth_m ? vec3(0.2, 0.5, 1.0) : vec3(1.0, 0.25, 0.15))
-                           : (source == 0 ? vec3(0.9) : vec3(0.95, 0.85, 0.3));
-    linear = tint * (0.15 + light);
+        found.rgb = k == 0 ? vec3(dot(found.rgb, vec3(0.3, 0.6, 0.1))) : found.rgb * vec3(1.0, 0.9, 0.3);
 #endif
-    gl_FragDepth = raise > 0.0 ? near_m / max(shown_m, depth_m) : gl_FragCoord.z;
-    colour = vec4(encoded(behind_air(linear, ray_m * shown_m)), 1.0);
+        sum += found;
+    }
+    if (sum.a == 0.0 || low_m < near_depth_m) discard;
+    colour = vec4(sum.rgb / sum.a, 1.0);
 }
 )";
 

@@ -46,6 +46,18 @@ TEST(Methods, HaveVariantsThatAreCurvesOfTheirOwn) {
     EXPECT_EQ(family_of(*parse_method("terrain:hard")), "terrain:hard");
 }
 
+TEST(Methods, WithinABudgetAreACurveOfTheirOwn) {
+    EXPECT_EQ(labels_of({"terrain@triangles=20000", "terrain:hard@triangles=0"}, {}),
+              (Strings{"terrain@error-px=1@samples=4@morph=0.5@triangles=20000", "terrain:hard@error-px=1@samples=4"}));
+    EXPECT_EQ(family_of(*parse_method("terrain@triangles=20000")), "terrain@triangles");
+    EXPECT_EQ(family_of(*parse_method("terrain@triangles=0")), "terrain");
+    EXPECT_EQ(budget_of(*parse_method("terrain:hard@triangles=7")), 7);
+    EXPECT_EQ(budget_of(floor_spec(4)), 0);
+    EXPECT_EQ(labels_of({"terrain:hard@triangles=0", "terrain:hard@error-px=0.5"}, {"error-px=1", "triangles=10,20"}),
+              (Strings{"terrain:hard@error-px=1@samples=4", "terrain:hard@error-px=0.5@samples=4@triangles=10",
+                       "terrain:hard@error-px=0.5@samples=4@triangles=20"}));
+}
+
 TEST(Methods, MorphAsThePlayerDoesUnlessAskedOtherwise) {
     EXPECT_EQ(morph_of(*parse_method("terrain")), terrain::kDefaultMorph);
     EXPECT_EQ(morph_of(*parse_method("terrain@morph=0.75")), 0.75);

@@ -39,7 +39,7 @@ class LodSprite : public Method {
         novel_.near_error_px = settings_.error_px;
         novel_.most_slack_m = world.refiner->highest_m() - world.refiner->lowest_m();
         novel_.tolerance_px = setting(spec, "tolerance-px");
-        novel_.iterations = uint32_t(setting(spec, "look-ups"));
+        novel_.look_ups = uint32_t(setting(spec, "look-ups"));
         novel_.raises = setting(spec, "outlines") != 0;
         novel_.tests_slab = setting(spec, "slab-test") != 0;
         novel_.tests_places = setting(spec, "place-test") != 0;
@@ -73,7 +73,7 @@ class LodSprite : public Method {
         counters_ = {};
         if (work_) {
             if (work_->begin != nullptr) {
-                [[maybe_unused]] Result<void> begun = painter_->begin_key(work_->slot, *work_->begin, settings_.scale);
+                [[maybe_unused]] Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
                 assert(begun);
             }
             surface_.take(*work_->slice);

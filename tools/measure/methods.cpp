@@ -18,24 +18,25 @@ namespace {
 constexpr SettingKind kErrorPx{"error-px", 0.01, 1000, 1, false};
 constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
 constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
-constexpr std::array<SettingKind, 3> kTerrainSettings = {kErrorPx, kSamples, kMorph};
-constexpr std::array<SettingKind, 2> kHardSettings = {kErrorPx, kSamples};
+constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
+constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
+constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
                                                          SettingKind{"low-error-px", 0.01, 1000, 16, false},
                                                          SettingKind{"key-error-px", 0.01, 1000, 1, false},
-                                                         SettingKind{"key-scale", 1, 4, 2, true},
-                                                         SettingKind{"guard", 1, 3, 1.15, false},
-                                                         SettingKind{"slots", 2, 16, 4, true},
-                                                         SettingKind{"fade-frames", 0, 60, 8, true},
-                                                         SettingKind{"sliced", 0, 1, 1, true},
-                                                         SettingKind{"near", 0, 1, 1, true},
-                                                         SettingKind{"tolerance-px", 0.05, 10, 0.5, false},
-                                                         SettingKind{"look-ups", 1, 16, 4, true},
-                                                         SettingKind{"outlines", 0, 1, 1, true},
-                                                         SettingKind{"slab-test", 0, 1, 1, true},
-                                                         SettingKind{"place-test", 0, 1, 1, true},
-                                                         SettingKind{"sources", 0, 1, 0, true},
+                                                         SettingKind{"key-scale", 1, 4, 2, true, true},
+                                                         SettingKind{"guard", 1, 3, 1.15, false, true},
+                                                         SettingKind{"slots", 2, 16, 4, true, true},
+                                                         SettingKind{"fade-frames", 0, 60, 8, true, true},
+                                                         SettingKind{"sliced", 0, 1, 1, true, true},
+                                                         SettingKind{"near", 0, 1, 1, true, true},
+                                                         SettingKind{"tolerance-px", 0.05, 10, 0.5, false, true},
+                                                         SettingKind{"look-ups", 1, 16, 4, true, true},
+                                                         SettingKind{"outlines", 0, 1, 1, true, true},
+                                                         SettingKind{"slab-test", 0, 1, 1, true, true},
+                                                         SettingKind{"place-test", 0, 1, 1, true, true},
+                                                         SettingKind{"sources", 0, 1, 0, true, true},
                                                          kSamples};
 constexpr std::array<MethodKind, 4> kKinds = {
     MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"lod-sprite", "", kSpriteSettings},
@@ -164,6 +165,11 @@ Result<std::vector<Asked>> swept(const std::vector<Asked>& methods, std::string_
     return all;
 }
 
+// "terrain:hard".
+std::string named(const MethodSpec& spec) {
+    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+}
+
 }  // namespace
 
 std::span<const MethodKind> method_kinds() {
@@ -171,20 +177,26 @@ std::span<const MethodKind> method_kinds() {
 }
 
 std::string family_of(const MethodSpec& spec) {
-    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+    return budget_of(spec) > 0 ? named(spec) + "@" + std::string(kTriangles.name) : named(spec);
 }
 
 std::string label_of(const MethodSpec& spec) {
-    // Of a method with many settings those that are as they are anyway go without saying.
+    std::string label = named(spec);
     auto kind = std::find_if(kKinds.begin(), kKinds.end(),
                              [&](const MethodKind& one) { return one.name == spec.name && one.variant == spec.variant; });
-    bool says_all = kind == kKinds.end() || kind->settings.size() <= 3;
-    std::string label = family_of(spec);
     for (const auto& [name, value] : spec.settings) {
-        bool is_usual = !says_all && kind->settings[place_of(*kind, name)].otherwise == value;
-        if (!is_usual || name == kErrorPx.name || name == kSamples.name) label += fmt::format("@{}={}", name, value);
+        const SettingKind* known = kind == kKinds.end() ? nullptr : &kind->settings[place_of(*kind, name)];
+        bool goes_without_saying = known != nullptr && known->is_seldom && known->otherwise == value;
+        if (!goes_without_saying) label += fmt::format("@{}={}", name, value);
     }
     return label;
+}
+
+double budget_of(const MethodSpec& spec) {
+    for (const auto& [name, value] : spec.settings) {
+        if (name == kTriangles.name) return value;
+    }
+    return 0;
 }
 
 double setting(const MethodSpec& spec, const std::string& name) {
@@ -234,7 +246,7 @@ std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     assert(spec.name == "terrain");
-    return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
+    return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));
 }
 
 }  // namespace overlook::measure

@@ -17,6 +17,7 @@ struct SettingKind {
     std::string_view name;
     double least = 0, most = 0, otherwise = 0;
     bool is_whole = false;
+    bool is_seldom = false;  // changed: labels name it only where it is not the default
 };
 struct MethodKind {
     std::string_view name, variant;  // "" = the default one
@@ -44,6 +45,9 @@ bool is_floor(const MethodSpec& spec);
 
 // How far a terrain's vertices morph (Refiner::cut_by_pixels): 0 of the variant "hard", whose vertices pop.
 double morph_of(const MethodSpec& spec);
+
+// Triangles that a frame may have, 0 = as many as its error takes.
+double budget_of(const MethodSpec& spec);
 
 // The spec must come from above; the world must outlive the method.
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world);

@@ -93,6 +93,7 @@ std::string cases_html(const SuiteResult& result) {
     for (const Verdict& verdict : result.verdicts) {
         if (verdict.number != number) {
             html += fmt::format("<h2 id=\"{0}\">{0}: {1}</h2>\n", verdict.number, escaped(verdict.what));
+            if (!verdict.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped(verdict.note));
         }
         number = verdict.number;
         html += fmt::format("<section>\n<h3>{}: {}</h3>\n<p>{}<br>{}</p>\n{}</section>\n", escaped(label_of(verdict.spec)),

@@ -21,6 +21,7 @@ struct Verdict {
     MethodSpec spec;
     std::vector<HeldGate> gates;
     Finding finding;
+    std::string note{};  // the case's
     bool is_kept() const;
 };
 
