@@ -32,7 +32,7 @@ class Surface {
     virtual Result<Program> program(const SurfaceShader& shader) const = 0;
     // Draws with a program of this surface, in use, whose own uniforms and textures are set, into whatever is bound.
     virtual void draw(const Program& program, const view::Camera& camera) = 0;
-    // Fills every pixel with what is behind everything, with no depth.
+    // Fills the pixels in which nothing is drawn yet with what is behind everything; their depth stays as far as it was.
     virtual void draw_background(const view::Camera& camera) = 0;
 };
 

@@ -180,6 +180,30 @@ void Director::key_done(DepthGrid depths) {
     making_.reset();
 }
 
+// Of the coarse cut's triangles those all of whose corners are near come first.
+void Director::put_near_first() {
+    novel_.near_triangle_count = 0;
+    if (novel_.near_depth_m <= 0) return;
+    view::Axes axes = view::axes_of(camera_);
+    far_indices_.clear();
+    size_t kept = 0;
+    for (size_t i = 0; i < low_.indices.size(); i += 3) {
+        double farthest_m = 0;
+        for (size_t j = i; j < i + 3; ++j) {
+            glm::dvec3 away_m = refiner_.vertex_m(low_, low_.indices[j]) - camera_.position_m;
+            farthest_m = std::max(farthest_m, glm::dot(away_m, axes.forward));
+        }
+        if (farthest_m < novel_.near_depth_m) {
+            std::copy_n(&low_.indices[i], 3, &low_.indices[kept]);
+            kept += 3;
+        } else {
+            far_indices_.insert(far_indices_.end(), &low_.indices[i], &low_.indices[i] + 3);
+        }
+    }
+    std::copy(far_indices_.begin(), far_indices_.end(), low_.indices.begin() + ptrdiff_t(kept));
+    novel_.near_triangle_count = kept / 3;
+}
+
 const Novel& Director::novel() {
     is_begun_ = false;
     novel_.keys.clear();
@@ -207,6 +231,7 @@ const Novel& Director::novel() {
     }
     novel_.is_fine = !has_key;
     refiner_.cut_by_pixels(camera_, detail, low_);
+    put_near_first();
     novel_.cut = &low_;
     return novel_;
 }

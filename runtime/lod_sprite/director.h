@@ -50,6 +50,7 @@ struct NovelUse {
 // What a novel frame is made of.
 struct Novel {
     const terrain::Cut* cut = nullptr;
+    uint64_t near_triangle_count = 0;  // the cut's first so many lie nearer than near_depth_m all through
     std::vector<NovelUse> keys;
     double near_depth_m = 0;
     bool is_fine = false;                       // the cut keeps error_px everywhere: no key is there to be used
@@ -97,6 +98,7 @@ class Director {
     void begin_key(const view::Camera& pose, Cause cause);
     uint32_t slot_to_empty() const;
     uint64_t slice_triangles() const;
+    void put_near_first();
 
     const terrain::Refiner& refiner_;
     Settings settings_;
@@ -113,6 +115,7 @@ class Director {
     bool was_last_ = false;
     Cause took_over_ = Cause::none;
     terrain::Cut slice_, low_;
+    std::vector<uint32_t> far_indices_;
     Novel novel_;
 };
 

@@ -64,10 +64,13 @@ Result<void> Painter::begin_key(uint32_t slot, gl::Surface& surface, const view:
         sprite.height_px = height_px;
     }
     sprite.camera = camera;
+    sprite.drawn_camera = camera;
+    sprite.drawn_camera.width_px = width_px;
+    sprite.drawn_camera.height_px = height_px;
     gl::bind_for_drawing(sprite.framebuffer.id(), width_px, height_px);
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    surface.draw_background(camera);
+    surface.draw_background(sprite.drawn_camera);
     return {};
 }
 
@@ -75,7 +78,7 @@ void Painter::draw_into_key(uint32_t slot, gl::Surface& surface) {
     const Sprite& sprite = sprites_[slot];
     gl::bind_for_drawing(sprite.framebuffer.id(), sprite.width_px, sprite.height_px);
     key_program_.use();
-    surface.draw(key_program_, sprite.camera);
+    surface.draw(key_program_, sprite.drawn_camera);
 }
 
 DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
@@ -92,23 +95,26 @@ DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
     return grid;
 }
 
-Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const NovelOptions& options, bool is_own) {
-    uint32_t keys = is_own ? 0 : uint32_t(options.keys.size());
-    uint32_t name = keys + (is_own ? 0 : 8 * options.look_ups) + (options.shows_sources ? 1 << 16 : 0);
-    auto known = novel_programs_.find(name);
-    if (known == novel_programs_.end()) {
-        std::string settings = fmt::format("#define KEYS {}\n#define LOOK_UPS {}\n{}", keys, options.look_ups,
-                                           options.shows_sources ? "#define SHOWS_SOURCES\n" : "");
-        Result<gl::Program> made = surface.program(
-            {fmt::format("novel view with {} keys", keys), is_own ? "" : std::string(shaders::kSlack) + shaders::kRaised,
-             settings + shaders::kSlack + (is_own ? shaders::kOwnMain : shaders::kNovelMain)});
+Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const NovelOptions& options, Pass pass) {
+    uint32_t keys = pass == Pass::near ? 0 : uint32_t(options.keys.size());
+    uint32_t name = uint32_t(pass) + 4 * keys + (keys > 0 ? 32 * options.look_ups : 0) + (options.shows_sources ? 1u << 31 : 0);
+    auto known = programs_.find(name);
+    if (known == programs_.end()) {
+        bool raises = pass == Pass::keys;
+        std::string fragment = fmt::format("#define KEYS {}\n#define LOOK_UPS {}\n{}{}", keys, options.look_ups,
+                                           options.shows_sources ? "#define SHOWS_SOURCES\n" : "", shaders::kSlack);
+        if (keys > 0) fragment += shaders::kFind;
+        fragment += raises ? shaders::kNovelMain : shaders::kOwnMain;
+        Result<gl::Program> made = surface.program({fmt::format("novel view with {} keys", keys),
+                                                    raises ? std::string(shaders::kSlack) + shaders::kRaised : "", fragment});
         if (!made) return tl::unexpected(made.error());
-        known = novel_programs_.emplace(name, std::move(*made)).first;
+        known = programs_.emplace(name, std::move(*made)).first;
     }
     return &known->second;
 }
 
-void Painter::set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const {
+void Painter::set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options,
+                           bool raises) const {
     for (size_t i = 0; i < options.keys.size(); ++i) {
         const Sprite& sprite = sprites_[options.keys[i].slot];
         Link link = link_of(sprite.camera, camera);
@@ -130,31 +136,32 @@ void Painter::set_uniforms(const gl::Program& program, const view::Camera& camer
     glUniform1f(program.at("near_error_px"), float(options.near_error_px));
     glUniform1f(program.at("near_depth_m"), float(options.near_depth_m));
     glUniform1f(program.at("most_slack_m"), float(options.most_slack_m));
-    glUniform1f(program.at("raise"), options.raises ? 1.0f : 0.0f);
+    glUniform1f(program.at("raise"), raises ? 1.0f : 0.0f);
     glUniform1f(program.at("tolerance_px"), float(options.tolerance_px));
     glUniform1i(program.at("is_slab_tested"), options.tests_slab);
     glUniform1i(program.at("is_place_tested"), options.tests_places);
 }
 
-Result<void> Painter::draw(const gl::Target& target, gl::Surface& surface, const view::Camera& camera,
+Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
                            const NovelOptions& options) {
     assert(options.keys.size() <= kMostKeysAtOnce && options.look_ups >= 1);
     target.bind();
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    surface.draw_background(camera);
-    // First what keys show, on the raised surface, so that it hides the surface itself; that is then drawn where nothing is yet.
-    for (bool is_own : {false, true}) {
-        if (!is_own && options.keys.empty()) continue;
-        Result<const gl::Program*> program = program_of(surface, options, is_own);
+    for (Pass pass : {Pass::near, Pass::keys, Pass::rest}) {
+        gl::Surface* surface = pass == Pass::near ? near : &far;
+        bool raises = pass == Pass::keys && options.raises;
+        if (surface == nullptr || (pass == Pass::keys && options.keys.empty())) continue;
+        Result<const gl::Program*> program = program_of(*surface, options, pass);
         if (!program) return tl::unexpected(program.error());
         (*program)->use();
-        set_uniforms(**program, camera, options);
+        set_uniforms(**program, camera, options, raises);
         // A ray that leaves the raised surface has been through it.
-        if (!is_own && options.raises) glEnable(GL_CULL_FACE);
-        surface.draw(**program, camera);
+        if (raises) glEnable(GL_CULL_FACE);
+        surface->draw(**program, camera);
         glDisable(GL_CULL_FACE);
     }
+    far.draw_background(camera);
     target.resolve();
     return {};
 }

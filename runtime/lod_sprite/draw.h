@@ -32,7 +32,7 @@ struct NovelOptions {
     double near_depth_m = 0;
     double most_slack_m = 1e9;   // no surface is farther than that from its coarse form
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
-    uint32_t look_ups = 3;       // a pixel and key, at least 1
+    uint32_t look_ups = 2;       // a pixel and key, at least 1
     bool raises = true;          // the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
     bool tests_places = true;    // a texel counts only where it is in its own place in this frame
@@ -53,24 +53,27 @@ class Painter {
     // The key's depths (metres along its axis, infinity = nothing), every `step`-th texel of every `step`-th row, from the top.
     DepthGrid read_depth(uint32_t slot, uint32_t step) const;
 
-    // Draws a novel frame, background and all, and resolves it. Keys must be whole.
-    Result<void> draw(const gl::Target& target, gl::Surface& surface, const view::Camera& camera, const NovelOptions& options);
+    // Draws a novel frame, background and all, and resolves it. near: what lies nearer than near_depth_m all through, drawn
+    // without keys (null = nothing); far: everything else. Keys must be whole.
+    Result<void> draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
+                      const NovelOptions& options);
 
     uint64_t resident_bytes() const;
 
   private:
     struct Sprite {
-        view::Camera camera;
+        view::Camera camera, drawn_camera;  // the second with the texels' size
         uint32_t width_px = 0, height_px = 0;
         gl::Texture colour, depth;
         gl::Framebuffer framebuffer;
     };
-    Result<const gl::Program*> program_of(const gl::Surface& surface, const NovelOptions& options, bool is_own);
-    void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const;
+    enum class Pass { near, keys, rest };
+    Result<const gl::Program*> program_of(const gl::Surface& surface, const NovelOptions& options, Pass pass);
+    void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options, bool raises) const;
 
     std::vector<Sprite> sprites_;
     gl::Program key_program_;
-    std::map<uint32_t, gl::Program> novel_programs_;  // by keys, look-ups and what is shown
+    std::map<uint32_t, gl::Program> programs_;  // by pass, keys, look-ups and what is shown
 };
 
 }  // namespace overlook::lod_sprite

@@ -31,19 +31,6 @@ vec3 placed(vec3 relative_m) {
 }
 )";
 
-// What no key shows is drawn as it is, with the thing's own colours, after what keys show.
-inline constexpr char kOwnMain[] = R"(
-void main() {
-#ifdef SHOWS_SOURCES
-    bool is_near = dot(eye_forward, surface.relative_m) < near_depth_m;
-    float light = dot(own_colour(surface.relative_m), vec3(0.21, 0.72, 0.07));
-    colour = vec4(encoded((is_near ? vec3(0.2, 0.5, 1.0) : vec3(1.0, 0.25, 0.15)) * (0.15 + light)), 1.0);
-#else
-    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
-#endif
-}
-)";
-
 // KEYS is the count of keys, LOOK_UPS how often a place is looked up anew, SHOWS_SOURCES whether colours tell the source.
 // Key space: axes of the key's camera, z forward, origin at its eye.
 //
@@ -52,7 +39,7 @@ void main() {
 // the key shows there. That settles where ray and key's surface meet. The four texels round that place are then asked one by one:
 // each is a point of the true surface (or of the sky, infinitely far), and counts only if its own place in this frame is where it
 // would be shown.
-inline constexpr char kNovelMain[] = R"(
+inline constexpr char kFind[] = R"(
 uniform mat3 key_from_world[KEYS];
 uniform vec3 eye_in_key_m[KEYS];
 uniform vec2 key_tangents[KEYS];
@@ -65,9 +52,14 @@ uniform float tolerance_px;  // beside the distance of a texel's middle from the
 uniform bool is_slab_tested, is_place_tested;
 const float kFarthest = 1e-7;  // of near / depth: the sky
 
-// What key k shows on the ray whose point at depth t is ray_m * t, looked for from low_m on, where the coarse surface is: its
-// encoded colour and 1, or 0s.
-vec4 find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
+// What a key shows: 1 or 0, and 1 if it is nothing but the sky.
+struct Found {
+    vec3 encoded;
+    float is_found, is_sky;
+};
+
+// What key k shows on the ray whose point at depth t is ray_m * t, looked for from low_m on, where the coarse surface is.
+Found find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     vec3 origin = eye_in_key_m[k], along = key_from_world[k] * ray_m, forward = key_from_world[k] * eye_forward;
     float near_in_key_m = key_near_m[k];
     vec2 tangents = key_tangents[k], size = vec2(textureSize(key_depths[k], 0));
@@ -112,29 +104,61 @@ vec4 find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     // Beyond what the coarse surface allows only if the key saw the space before it empty.
     bool is_in_slab = abs(shown_m - low_m) <= 1.5 * slack_depth_m + 0.002 * low_m;
     bool is_found = is_inside && sum > 0.05 && (is_in_slab || (was_free && shown_m > low_m) || !is_slab_tested);
-    return is_found ? vec4(shown / sum, 1.0) : vec4(0.0);
+    bool is_sky = shown_m > 0.5 / kFarthest * near_in_key_m;
+    return Found(shown / max(sum, 1e-6), float(is_found), float(is_found && is_sky));
 }
 
-void main() {
+// The ray of this pixel, as deep as 1 m; how deep the coarse surface itself is on it, and how thick along it what the coarse surface
+// may be off by.
+void look(out vec3 ray_m, out float low_m, out float slack_depth_m) {
     float depth_m = dot(eye_forward, surface.relative_m);
-    vec3 ray_m = surface.relative_m / depth_m;
+    ray_m = surface.relative_m / depth_m;
     vec3 normal = cross(dFdx(surface.relative_m), dFdy(surface.relative_m));
     normal *= (normal.z < 0.0 ? -1.0 : 1.0) / max(length(normal), 1e-20);
     // Where the ray meets the coarse surface itself, so far below what was drawn.
     float fall = max(-dot(normal, ray_m), 0.01 * length(ray_m));
-    float slack_depth_m = slack_m(surface.relative_m) * normal.z / fall;
-    float low_m = depth_m + raise * slack_depth_m;
+    slack_depth_m = slack_m(surface.relative_m) * normal.z / fall;
+    low_m = depth_m + raise * slack_depth_m;
 
+}
+)";
+
+// First what keys show, on the raised surface, so that it hides the surface itself; the sky is left as it is.
+inline constexpr char kNovelMain[] = R"(
+void main() {
+    vec3 ray_m;
+    float low_m, slack_depth_m;
+    look(ray_m, low_m, slack_depth_m);
     vec4 sum = vec4(0.0);
     for (int k = 0; k < KEYS; ++k) {
-        vec4 found = key_weights[k] * find(k, ray_m, low_m, slack_depth_m);
+        Found found = find(k, ray_m, low_m, slack_depth_m);
+        float weight = key_weights[k] * found.is_found * (1.0 - found.is_sky);
 #ifdef SHOWS_SOURCES
-        found.rgb = k == 0 ? vec3(dot(found.rgb, vec3(0.3, 0.6, 0.1))) : found.rgb * vec3(1.0, 0.9, 0.3);
+        found.encoded = dot(found.encoded, vec3(0.3, 0.6, 0.1)) * (k == 0 ? vec3(1.0) : vec3(1.0, 0.9, 0.3));
 #endif
-        sum += found;
+        sum += weight * vec4(found.encoded, 1.0);
     }
     if (sum.a == 0.0 || low_m < near_depth_m) discard;
     colour = vec4(sum.rgb / sum.a, 1.0);
+}
+)";
+
+// Then what no key shows, with the thing's own colours, but for what a key knows to be sky.
+inline constexpr char kOwnMain[] = R"(
+void main() {
+    vec3 own = own_colour(surface.relative_m);
+    bool is_near = dot(eye_forward, surface.relative_m) < near_depth_m;
+#if KEYS > 0
+    vec3 ray_m;
+    float low_m, slack_depth_m, skies = 0.0;
+    look(ray_m, low_m, slack_depth_m);
+    for (int k = 0; k < KEYS; ++k) skies += find(k, ray_m, low_m, slack_depth_m).is_sky;
+    if (!is_near && skies > 0.0) discard;
+#endif
+#ifdef SHOWS_SOURCES
+    own = (is_near ? vec3(0.2, 0.5, 1.0) : vec3(1.0, 0.25, 0.15)) * (0.15 + dot(own, vec3(0.21, 0.72, 0.07)));
+#endif
+    colour = vec4(encoded(behind_air(own, surface.relative_m)), 1.0);
 }
 )";
 

@@ -182,13 +182,14 @@ void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) c
     glUniform2f(sky_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
     glBindVertexArray(nothing_.id());
     glDepthMask(GL_FALSE);
-    glDisable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);  // it is drawn at depth 0
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
 }
 
-void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
+void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options,
+                        TriangleRange range) const {
     program.use();
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
@@ -200,7 +201,10 @@ void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, 
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
         glTextureParameterf(texture_.id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(options.anisotropy, 1.0f, most));
     }
-    glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    uint64_t triangles = uint64_t(index_count_) / 3, first = std::min(range.first, triangles);
+    GLsizei count = GLsizei(3 * std::min(range.count, triangles - first));
+    if (count == 0) return;
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first * 3 * sizeof(uint32_t)));
 }
 
 void Drawing::take(const Cut& cut) {
@@ -220,7 +224,6 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glDisable(GL_CULL_FACE);
-    draw_sky(camera, options);
 
     GLint half_px = GLint(target.width_px() / 2);
     if (options.look == Look::split) {
@@ -233,6 +236,7 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     } else {
         draw_with(options.look == Look::wireframe ? wireframe_ : shaded_, camera, options);
     }
+    draw_sky(camera, options);
     target.resolve();
 }
 

@@ -32,6 +32,11 @@ struct DrawOptions {
     std::optional<view::Part> part;
 };
 
+// Some of a cut's triangles, in their order.
+struct TriangleRange {
+    uint64_t first = 0, count = ~uint64_t(0);  // as far as there are
+};
+
 // A terrain on the graphics card: 4 bytes a sample and its texture. The terrain itself may go afterwards.
 // It is drawn relative to the camera (whole cells subtracted as integers, the rest in double), so that the picture is
 // the same however far from the world's origin the terrain lies.
@@ -48,8 +53,9 @@ class Drawing {
     // Draws with a cut what a method colours by itself, into whatever is bound.
     Result<gl::Program> program(const gl::SurfaceShader& shader) const;
     void take(const Cut& cut);  // what draw_with() draws from now on
-    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
-    void draw_sky(const view::Camera& camera, const DrawOptions& options) const;
+    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options,
+                   TriangleRange range = {}) const;
+    void draw_sky(const view::Camera& camera, const DrawOptions& options) const;  // where nothing is drawn yet
 
     // What the last draw() or take() sent to the card.
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }
@@ -80,17 +86,22 @@ class CutSurface : public gl::Surface {
   public:
     CutSurface(Drawing& drawing, const DrawOptions& options) : drawing_(drawing), options_(options) {}
 
-    // What is drawn from now on.
+    // What is drawn from now on, by all surfaces of this drawing.
     void take(const Cut& cut) { drawing_.take(cut); }
+    // Only these of what was taken.
+    void take_range(TriangleRange range) { range_ = range; }
     uint64_t uploaded_bytes() const { return drawing_.uploaded_bytes(); }
 
     Result<gl::Program> program(const gl::SurfaceShader& shader) const override { return drawing_.program(shader); }
-    void draw(const gl::Program& program, const view::Camera& camera) override { drawing_.draw_with(program, camera, options_); }
+    void draw(const gl::Program& program, const view::Camera& camera) override {
+        drawing_.draw_with(program, camera, options_, range_);
+    }
     void draw_background(const view::Camera& camera) override { drawing_.draw_sky(camera, options_); }
 
   private:
     Drawing& drawing_;
     DrawOptions options_;
+    TriangleRange range_;
 };
 
 }  // namespace overlook::terrain

@@ -242,6 +242,20 @@ void Refiner::cut_by_pixels(const view::Camera& camera, const PixelDetail& detai
     refine(impl_->terrain, test, ScreenTest::kAllPlanes, out);
 }
 
+glm::dvec3 Refiner::vertex_m(const Cut& cut, uint32_t index) const {
+    const Terrain& terrain = impl_->terrain;
+    uint32_t sample = index;
+    double rise_m = 0;
+    if (index >= terrain.heights.size()) {
+        const Cut::Morph& morph = cut.morphs[index - terrain.heights.size()];
+        sample = morph.sample;
+        rise_m = morph.rise_m;
+    }
+    uint32_t column = sample % terrain.shape.width, row = sample / terrain.shape.width;
+    return {column * terrain.frame.metres_per_column, -(row * terrain.frame.metres_per_row),
+            terrain.height_offset_m + terrain.height_step_m * terrain.heights[sample] + rise_m};
+}
+
 struct SlicedCut::Impl {
     const Terrain& terrain;
     ScreenTest test;

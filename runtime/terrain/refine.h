@@ -79,6 +79,9 @@ class Refiner {
     // The same with two tolerances, one for what is near.
     void cut_by_pixels(const view::Camera& camera, const PixelDetail& detail, Cut& out) const;
 
+    // Where a vertex of a cut is drawn, metres in the terrain's frame. index: one of the cut's.
+    glm::dvec3 vertex_m(const Cut& cut, uint32_t index) const;
+
     // Heights of the terrain's lowest and highest valid sample, metres.
     double lowest_m() const;
     double highest_m() const;

@@ -30,6 +30,7 @@ class LodSprite : public Method {
     LodSprite(World& world, const MethodSpec& spec)
         : world_(world),
           surface_(*world.drawing, world.look),
+          near_surface_(*world.drawing, world.look),
           settings_(settings_of(spec)),
           director_(*world.refiner, settings_) {
         Result<lod_sprite::Painter> painter = lod_sprite::Painter::make(surface_, settings_.slots);
@@ -56,7 +57,10 @@ class LodSprite : public Method {
         if (!is_drawn_) draw_key();
         is_drawn_ = true;
         surface_.take(*plan_->cut);
-        [[maybe_unused]] Result<void> drawn = painter_->draw(target, surface_, camera_, novel_);
+        surface_.take_range({plan_->near_triangle_count});
+        near_surface_.take_range({0, plan_->near_triangle_count});
+        gl::Surface* near = plan_->near_triangle_count > 0 ? &near_surface_ : nullptr;
+        [[maybe_unused]] Result<void> drawn = painter_->draw(target, near, surface_, camera_, novel_);
         assert(drawn);
         Counters counters = counters_;
         counters.uploaded_bytes += surface_.uploaded_bytes();
@@ -77,6 +81,7 @@ class LodSprite : public Method {
                 assert(begun);
             }
             surface_.take(*work_->slice);
+            surface_.take_range({});
             painter_->draw_into_key(work_->slot, surface_);
             counters_.triangle_count += work_->slice->triangle_count();
             counters_.vertex_reference_count += work_->slice->indices.size();
@@ -99,7 +104,7 @@ class LodSprite : public Method {
     }
 
     World& world_;
-    terrain::CutSurface surface_;
+    terrain::CutSurface surface_, near_surface_;
     lod_sprite::Settings settings_;
     lod_sprite::Director director_;
     std::optional<lod_sprite::Painter> painter_;
