@@ -1,6 +1,9 @@
 #include "tools/measure/reference.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numbers>
 
 #include "formats/mapped_file.h"
 #include "runtime/terrain/draw_shaders.h"
@@ -33,6 +36,15 @@ std::string bits_of(const view::Camera& camera) {
     return bits + fmt::format("{} {}\n", camera.width_px, camera.height_px);
 }
 
+// The camera of a picture with more pixels on every side, each as large as before.
+view::Camera widened(view::Camera camera, uint32_t margin_px) {
+    double focal_px = view::focal_px(camera);
+    camera.width_px += 2 * margin_px;
+    camera.height_px += 2 * margin_px;
+    camera.fov_y_deg = 2 * std::atan(camera.height_px / (2 * focal_px)) * 180 / std::numbers::pi;
+    return camera;
+}
+
 }  // namespace
 
 Result<ReferenceRenderer> ReferenceRenderer::make(World& world, const gl::Renderer& renderer, uint32_t width_px,
@@ -62,6 +74,17 @@ Frame ReferenceRenderer::drawn(const view::Camera& camera) {
     full_->decide(large_camera, 0);
     full_->draw(large_);
     frame.rgb = box_filtered(large_.read(), kSupersampling).pixels;
+    return frame;
+}
+
+Result<Frame> ReferenceRenderer::surroundings(const view::Camera& camera, uint32_t margin_px) {
+    view::Camera wide = widened(camera, margin_px);
+    Result<gl::Target> target = gl::Target::make(wide.width_px, wide.height_px, 1);
+    if (!target) return tl::unexpected(target.error());
+    full_->decide(wide, 0);
+    full_->draw(*target);
+    Frame frame = captured(*target, *target, wide);
+    std::fill(frame.rgb.begin(), frame.rgb.end(), uint8_t(0));
     return frame;
 }
 
