@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "formats/container.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
 #include "tools/measure/figures.h"
+#include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/options.h"
 
@@ -118,6 +121,36 @@ TEST(MeasuredCourse, PutsTheFloorWhereItBelongs) {
     EXPECT_EQ(course.runs[2].pop.index, 1);
     EXPECT_EQ(course.runs[3].frames[0].counters.triangle_count, 2u * 64 * 64);
     EXPECT_EQ(percentiles_of(course.runs[3], "hole_px").max, 0);
+}
+
+TEST(ReferenceRenderer, ShowsTheSamePixelsInItsSurroundings) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"full"}, {});
+    view::Camera camera = hills.course.cameras[0];
+    Result<ReferenceRenderer> renderer = ReferenceRenderer::make(hills.world, context->renderer(), 64, 64, "");
+    ASSERT_TRUE(renderer);
+    Result<Frame> frame = renderer->frame(camera), wide = renderer->surroundings(camera, 5);
+    ASSERT_TRUE(frame && wide);
+    ASSERT_EQ(wide->width, 74u);
+    ASSERT_EQ(wide->height, 74u);
+    size_t same = 0, of_ground = 0;
+    for (size_t y = 0; y < 64; ++y)
+        for (size_t x = 0; x < 64; ++x) {
+            size_t at = y * 64 + x, wide_at = (y + 5) * 74 + x + 5;
+            if (frame->ids[at] == kBackground) continue;
+            ++of_ground;
+            same += wide->ids[wide_at] == frame->ids[at] && std::abs(wide->depth_m[wide_at] / frame->depth_m[at] - 1) < 1e-3;
+        }
+    EXPECT_GT(of_ground, 1000u);
+    EXPECT_GE(double(same), 0.99 * double(of_ground));
+}
+
+TEST(MeasuredCourse, PromisesNoMoreThanWasAskedFor) {
+    Counters counters;
+    counters.predicted_error_px = 3;
+    EXPECT_EQ(promised_px(*parse_method("terrain@error-px=4"), counters), 3);
+    EXPECT_EQ(promised_px(*parse_method("terrain@error-px=2"), counters), 2);
+    EXPECT_EQ(promised_px(*parse_method("full"), counters), 0);
 }
 
 TEST(MeasuredCourse, SeesTheErrorOfACoarseCut) {

@@ -5,10 +5,10 @@
 
 namespace overlook::measure {
 
-// A height field whose samples stand at most promised_px from their places on the screen, each above or below its own place, shows
-// at pixel (x, y) of `test` more than the reference does only where lowered ground before it, or itself lowered, lets it: raised
-// by as much, what is shown there is before the reference's surface; and on the way up the test shows nothing nearer, for above
-// ground one sees is farther ground or none. So: raised along its own vertical by some whole number of pixels up to
+// A height field whose samples stand at most promised_px from their places on the screen, each above or below its own place,
+// shows at pixel (x, y) of `test` more than the reference does only where lowered ground before it, or itself lowered, lets it:
+// raised by as much, what is shown there is before the reference's surface; and on the way up the test shows nothing nearer, for
+// above ground one sees is farther ground or none. So: raised along its own vertical by some whole number of pixels up to
 // promised_px + 1.5 (the slack of pixels' middles) on the screen, it comes before what the reference shows, or background meets
 // background; and no pixel passed shows, with both beside it, ground more than 1 % nearer to the eye's own vertical. A crack has
 // ground above it, however much was promised.

@@ -92,8 +92,7 @@ Hole strict_hole_at(const Search& in, int x, int y) {
     if (in.test.ids[at] == kBackground) return kShowsBackground;
     if (in.test.ids[at] != in.thing) return kShowsOther;
     auto is_deeper = [&](float than_m) { return !(double(in.test.depth_m[at]) <= kDeeper * double(than_m)); };
-    bool deeper =
-        is_deeper(in.wide.depth_m[wide_at]) && is_deeper(deepest_near(in.wide, in.thing, x + in.margin, y + in.margin));
+    bool deeper = is_deeper(in.wide.depth_m[wide_at]) && is_deeper(deepest_near(in.wide, in.thing, x + in.margin, y + in.margin));
     return deeper ? kShowsDeeper : kNoHole;
 }
 
