@@ -8,9 +8,11 @@
 #include "formats/container.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
+#include "tools/measure/capture.h"
 #include "tools/measure/figures.h"
 #include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/numbers/silhouette.h"
 #include "tools/measure/options.h"
 
 namespace overlook::measure {
@@ -143,6 +145,59 @@ TEST(ReferenceRenderer, ShowsTheSamePixelsInItsSurroundings) {
         }
     EXPECT_GT(of_ground, 1000u);
     EXPECT_GE(double(same), 0.99 * double(of_ground));
+}
+
+// Draws a cut and takes its picture.
+Frame picture_of(World& world, const terrain::Cut& cut, const view::Camera& camera) {
+    Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, 1);
+    EXPECT_TRUE(target);
+    world.drawing->draw(*target, cut, camera, world.look);
+    return captured(*target, *target, camera);
+}
+
+// Whether a pixel shows the sky and has ground above it, as no lowered crest has.
+bool shows_sky_below_ground(const Frame& frame, size_t at) {
+    if (frame.ids[at] != kBackground) return false;
+    for (size_t above = at; above >= frame.width; above -= frame.width)
+        if (frame.ids[above - frame.width] != kBackground) return true;
+    return false;
+}
+
+TEST(HolesOfACut, AreFoundWhereATriangleIsMissingWhateverWasPromised) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    constexpr double kPromised_px = 8;
+    constexpr uint32_t kGround = kBackground + 1;
+    Hills hills({"full"}, {});
+    view::Camera camera = test::from_south(*hills.world.terrain, 128, 128);
+    terrain::Cut full, whole;
+    hills.world.refiner->cut_by_metres(-1, full);
+    hills.world.refiner->cut_by_pixels(camera, kPromised_px, whole, 0);
+    Frame reference = picture_of(hills.world, full, camera), sound = picture_of(hills.world, whole, camera);
+    HolePixels lowered = hole_pixels(sound, reference, kGround, {kPromised_px});
+    EXPECT_EQ(lowered.count, 0u);
+    EXPECT_GT(lowered.allowed, 100u) << "the cut is coarse enough to move crests";
+
+    size_t cracks = 0, crack_px = 0, counted_px = 0;
+    for (size_t triangle = 0; 3 * triangle < whole.indices.size(); ++triangle) {
+        terrain::Cut torn = whole;
+        auto from = torn.indices.begin() + ptrdiff_t(3 * triangle);
+        torn.indices.erase(from, from + 3);
+        Frame test = picture_of(hills.world, torn, camera);
+        std::vector<uint8_t> strict = hole_pixels(test, reference, kGround).mask;
+        HolePixels holes = hole_pixels(test, reference, kGround, {kPromised_px});
+        size_t in_crack = 0;
+        for (size_t at = 0; at < strict.size(); ++at) {
+            if (strict[at] == 0 || !shows_sky_below_ground(test, at)) continue;
+            ++in_crack;
+            counted_px += holes.mask[at] == strict[at];
+        }
+        crack_px += in_crack;
+        if (in_crack < 4) continue;
+        ++cracks;
+        EXPECT_GT(holes.count, 0u) << "triangle " << triangle << " opens " << in_crack << " px";
+    }
+    EXPECT_GT(cracks, 20u);
+    EXPECT_GE(double(counted_px), 0.99 * double(crack_px)) << counted_px << " of " << crack_px;
 }
 
 TEST(MeasuredCourse, PromisesNoMoreThanWasAskedFor) {

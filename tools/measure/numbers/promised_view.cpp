@@ -95,9 +95,7 @@ bool is_within_promise(const Frame& test, const Frame& wide_reference, int margi
         if (share <= 0) return false;
         int dx = ascent.goes_up_or_down() ? 1 : 0, dy = 1 - dx;
         std::array<Pixel, 3> abreast = {middle, Pixel{middle.x - dx, middle.y - dy}, Pixel{middle.x + dx, middle.y + dy}};
-        bool is_covered = is_in(test, middle) && std::all_of(abreast.begin(), abreast.end(),
-                                                             [&](Pixel at) { return !is_in(test, at) || is_nearer(at); });
-        if (is_covered) return false;
+        if (is_nearer(middle)) return false;
         if (std::any_of(abreast.begin(), abreast.end(), [&](Pixel at) { return comes_before_reference(at, share * shown_m); }))
             return true;
     }
