@@ -254,14 +254,14 @@ TEST(MorphedCut, GivesEveryVertexOneHeight) {
 
 // The greatest step on the screen that any point of the surface makes from one frame of a slow flight to the next, the camera's
 // own movement taken out.
-double greatest_step_px(const Terrain& terrain, double morph) {
+double greatest_step_px(const Terrain& terrain, double morph, double step_m = 0.5) {
     Refiner refiner(terrain);
     Cut cut;
     std::vector<double> before, now;
     double greatest = 0;
     for (int frame = 0; frame < 200; ++frame) {
         view::Camera camera;
-        camera.position_m = {1900, -3000 + 0.5 * frame, 1700};
+        camera.position_m = {1900, -3000 + step_m * frame, 1700};
         camera.pitch_deg = -20;
         refiner.cut_by_pixels(camera, 2, cut, morph);
         now.assign(terrain.heights.size(), NAN);
@@ -285,6 +285,15 @@ TEST(MorphedCut, GlidesWhereAnUnmorphedOnePops) {
     double popping_px = greatest_step_px(terrain, 0), gliding_px = greatest_step_px(terrain, 0.5);
     EXPECT_GT(popping_px, 0.3);
     EXPECT_LT(gliding_px, 0.05);
+}
+
+// Ten times finer steps over the same start: a surface that is continuous in the camera moves about ten times less at once.
+TEST(MorphedCut, MovesInProportionToTheCamera) {
+    Terrain terrain = baked(test::make_hills(129, 129, 23));
+    double coarse_px = greatest_step_px(terrain, 0.5, 0.5), fine_px = greatest_step_px(terrain, 0.5, 0.05);
+    EXPECT_GT(fine_px, 0);
+    EXPECT_LT(fine_px, 0.2 * coarse_px);
+    EXPECT_GT(greatest_step_px(terrain, 0, 0.05), 0.3);  // a pop is one however slowly it is flown by
 }
 
 TEST(MetreCut, OfAPlaneIsTwoTrianglesARoot) {

@@ -15,7 +15,8 @@ const std::string kCase = R"({"version": 1, "number": "S16", "what": "drops",
 "settings": {"drop_every": 7, "world_moves_m": [1e5], "resize_shares": [0.5, 1], "budget_share": 0.5, "goes_backwards": true},
 "gates": [{"figure": "pop_index", "most": 1.1, "of": "image"}, {"figure": "silhouette_p95_px", "over_asked_px": 1}],
 "methods": ["terrain", "lod-sprite"],
-"runs": ["terrain"]})";
+"runs": ["terrain"],
+"note": "known & said"})";
 
 std::string error_of(const std::string& from, const std::string& to) {
     std::string text = kCase;
@@ -29,6 +30,7 @@ TEST(StabilityCase, IsReadAsItIsWritten) {
     Result<Case> made = parse_case(kCase, "c.json");
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->number, "S16");
+    EXPECT_EQ(made->note, "known & said");
     EXPECT_EQ(made->settings.drop_every, 7u);
     EXPECT_EQ(made->settings.world_moves_m, std::vector<double>{1e5});
     EXPECT_EQ(made->settings.resize_shares, (std::vector<double>{0.5, 1}));
@@ -43,6 +45,7 @@ TEST(StabilityCase, IsReadAsItIsWritten) {
 }
 
 TEST(StabilityCase, NamesThePlaceOfEveryMistake) {
+    EXPECT_EQ(error_of("\"known & said\"", "7"), "c.json:7:9: /note: is a number; text is wanted");
     EXPECT_EQ(error_of("S16", "S1"), "c.json:1:26: /number: S1 is no case; S01 to S20 are");
     EXPECT_EQ(error_of("pop_index", "pop_idx"), "c.json:4:22: /gates/0/figure: pop_idx is no figure; did you mean pop_index?");
     EXPECT_EQ(error_of("\"most\": 1.1, ", ""), "c.json:4:11: /gates/0: has no bound: most or over_asked_px is wanted");

@@ -23,6 +23,10 @@ constexpr char kHead[] = R"(# Draws one chart. Run it in this folder; what stand
 if (!exists("kind")) kind = "svg"
 if (!exists("width")) width = 900
 if (!exists("height")) height = 540
+# A narrow chart is as high as its key needs.
+key_columns = width < 600 ? 1 : 3
+key_px = 19.0 * ceil(1.0 * key_rows / key_columns)
+if (width < 600) height = 400 + key_px
 if (!exists("to")) to = "chart." . kind
 if (kind eq "png") set terminal pngcairo size width,height font "DejaVu Sans,12" background "#ffffff"; else set terminal svg size width,height dynamic font "DejaVu Sans,Verdana,sans-serif,14" background "#ffffff"
 set output to
@@ -31,11 +35,15 @@ set datafile separator ","
 set border 3 lc rgb "#555555"
 set tics nomirror textcolor rgb "#222222"
 set grid lc rgb "#dddddd" lt 1
-set key outside below left Left reverse samplen 2 noenhanced maxcols (width < 600 ? 1 : 3) font ",12"
+set key outside below left Left reverse samplen 2 noenhanced maxcols key_columns font ",12"
 set ylabel offset 1,0
-set xlabel offset 0,0.4
+set xlabel offset 0,0.8
 is_narrow = width < 600
 )";
+
+std::string head(size_t key_rows) {
+    return fmt::format("key_rows = {}\n", key_rows) + kHead;
+}
 
 // In the order of the runs, each family once; the floor's last.
 std::vector<std::string> families_of(const CourseResult& course) {
@@ -58,11 +66,11 @@ std::string style_of(const CourseResult& course, size_t run, double width) {
 
 // runs.csv's columns: 1 run, 2 method, 3 is_floor, 4 e, 7 frame_ms_p50, 9 triangles_p50, 10 resident bytes.
 Chart front(const CourseResult& course, const std::string& name, const std::string& title, const std::string& cost, int column) {
-    Chart chart{name, title, kHead};
+    Chart chart{name, title, head(families_of(course).size() + 1)};
     chart.script +=
         fmt::format("set xlabel {}\nset ylabel 'E: LDR-FLIP, 99th percentile'\nset logscale x\nset yrange [0:*]\n", quoted(cost));
     chart.script += "set format x '%.0s%c'\nset offsets graph 0.08, graph 0.08, graph 0.12, 0\n";
-    chart.script += "size_of(bytes) = 0.35 * sqrt(bytes / 1e6) + 0.4\n";
+    chart.script += "size_of(bytes) = (is_narrow ? 0.5 : 1) * (0.35 * sqrt(bytes / 1e6) + 0.4)\n";
     std::string lines, dots;
     size_t place = 0;
     for (const std::string& family : families_of(course)) {
@@ -74,14 +82,13 @@ Chart front(const CourseResult& course, const std::string& name, const std::stri
             "'../runs.csv' skip 1 using {}:4:(size_of($10)) with points pt {} ps variable lc rgb \"{}\" notitle, \\\n", of,
             kPoints[place % kPoints.size()], colour);
         dots += fmt::format(
-            "'../runs.csv' skip 1 using {}:4:(swept(strcol(1))) with labels noenhanced font ',12' offset 0,1.1 tc rgb "
-            "\"#333333\" "
-            "notitle, \\\n",
-            of);
+            "'../runs.csv' skip 1 using {}:4:(swept(strcol(1))) with labels noenhanced font ',12' {} tc rgb \"{}\" notitle, \\\n",
+            of, place % 2 == 0 ? "left offset 0.9,0.4" : "right offset -0.9,-0.3", colour);
         ++place;
     }
     chart.script +=
-        "swept(run) = strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
+        "swept(run) = strstrt(run, '@triangles=') > 0 ? gprintf('%.0s%c', real(substr(run, strstrt(run, '@triangles=') + 11, "
+        "strlen(run)))) : strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
         "strstrt(run . '@samples', '@samples') - 1) . ' px'\n";
     chart.script += "plot " + lines + dots;
     chart.script += fmt::format(
@@ -100,6 +107,19 @@ std::string column_of(std::string_view name) {
     return "1";
 }
 
+// With the settings alone in which it differs from another run of its curve.
+std::string short_label(const CourseResult& course, size_t run) {
+    const MethodSpec& spec = course.runs[run].spec;
+    std::string label = family_of(spec).substr(0, family_of(spec).find('@'));
+    for (size_t i = 0; i < spec.settings.size(); ++i) {
+        bool differs = std::any_of(course.runs.begin(), course.runs.end(), [&](const RunResult& other) {
+            return family_of(other.spec) == family_of(spec) && other.spec.settings[i].second != spec.settings[i].second;
+        });
+        if (differs) label += fmt::format("@{}={}", spec.settings[i].first, spec.settings[i].second);
+    }
+    return label;
+}
+
 // One line a run of a column of frames.csv over the frames.
 std::string lines_over_flight(const CourseResult& course, std::string_view name, bool has_title) {
     std::string plot = "plot ";
@@ -107,7 +127,7 @@ std::string lines_over_flight(const CourseResult& course, std::string_view name,
         const std::string& label = course.runs[i].label;
         plot += fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? $2 : NaN):{} with lines {} {}",
                             i == 0 ? "" : ", \\\n", quoted(label), column_of(name), style_of(course, i, 1.8),
-                            has_title ? "title " + quoted(label) : "notitle");
+                            has_title ? "title " + quoted(short_label(course, i)) : "notitle");
     }
     // Events as ticks at the foot.
     plot +=
@@ -121,55 +141,68 @@ bool has_pictures(const CourseResult& course) {
 }
 
 Chart over_flight(const CourseResult& course) {
-    Chart chart{"flight", "Steadiness and frame time over the flight", kHead};
+    Chart chart{"flight", "Steadiness and frame time over the flight", head(course.runs.size())};
     if (!has_pictures(course)) {
         chart.title = "Frame time over the flight";
         chart.script += "set xlabel 'frame'\nset ylabel 'frame time, ms'\nset logscale y\n";
         chart.script += lines_over_flight(course, "frame_ms", true);
         return chart;
     }
+    chart.script += fmt::format("set xrange [0:{}]\n", std::max<size_t>(1, course.runs.front().frames.size() - 1));
     chart.script += "set multiplot\nset lmargin is_narrow ? 9 : 11\nset rmargin 2\n";
     chart.script +=
-        "set origin 0,0.66\nset size 1,0.34\nset bmargin 1.5\nset ylabel 'W, luma'\nset yrange [0:*]\nset xtics format ''\n";
+        "low = (key_px + 0.55 * (height - key_px)) / height\nset origin 0,low\nset size 1,1-low\nset bmargin 1.5\nset ylabel 'W, "
+        "luma'\nset yrange [0:*]\nset xtics format ''\n";
     chart.script += "unset key\n" + lines_over_flight(course, "w_luma", false);
     chart.script +=
-        "set origin 0,0\nset size 1,0.66\nunset bmargin\nset ylabel 'frame time, ms'\nset autoscale y\nset logscale y\n"
+        "set origin 0,0\nset size 1,low\nunset bmargin\nset ylabel 'frame time, ms'\nset autoscale y\nset logscale y\n"
         "set xtics format '%g'\nset xlabel 'frame'\n"
-        "set key outside below left Left reverse samplen 2 noenhanced maxcols (is_narrow ? 1 : 3) font ',12'\n";
+        "set key outside below left Left reverse samplen 2 noenhanced maxcols key_columns font ',12'\n";
     chart.script += lines_over_flight(course, "frame_ms", true) + "unset multiplot\n";
     return chart;
 }
 
 Chart distribution(const CourseResult& course) {
-    Chart chart{"distribution", "How the errors are spread", kHead};
-    chart.script +=
-        "set xlabel 'E of a frame: LDR-FLIP, 99th percentile over its pixels'\nset ylabel 'share of frames at most so'\n";
-    chart.script += "set yrange [0:1.02]\nset format y '%.1f'\nplot ";
+    Chart chart{"distribution", "How the errors are spread", head(course.runs.size())};
+    chart.script += "set xlabel 'E of a frame: LDR-FLIP, 99th percentile'\nset ylabel 'share of frames at most so'\n";
+    chart.script += "set yrange [0:1.02]\nset format y '%.1f'\nif (is_narrow) set xtics 0.1\nplot ";
     for (size_t i = 0; i < course.runs.size(); ++i) {
         const std::string& label = course.runs[i].label;
         chart.script +=
             fmt::format("{}'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):(1) smooth cnorm with steps {} title {}",
-                        i == 0 ? "" : ", \\\n", quoted(label), column_of("e_p99_flip"), style_of(course, i, 2), quoted(label));
+                        i == 0 ? "" : ", \\\n", quoted(label), column_of("e_p99_flip"), style_of(course, i, 2),
+                        quoted(short_label(course, i)));
     }
     chart.script += "\n";
     return chart;
 }
 
+// honesty.csv's columns: 1 method, 2 promised, 4 measured in the median, 6 and 7 the worst and what was promised of it. A curve
+// of worst things with dots, one of median things in dashes.
 Chart promise(const CourseResult& course) {
-    Chart chart{"promise", "Promised against measured pixels", kHead};
+    Chart chart{"promise", "Promised against measured pixels", head(2 * families_of(course).size() + 1)};
     chart.script +=
-        "set xlabel 'promised of the frame: predicted error, pixels'\nset ylabel 'measured: outlines, greatest, pixels'\n";
-    chart.script += "set xrange [0:*]\nset yrange [0:*]\nset offsets graph 0.03, graph 0.05, graph 0.05, 0\n";
-    chart.script += "plot x + 1 with lines lc rgb \"#999999\" dt 2 title 'promise, and one pixel of the raster'";
-    for (size_t i = 0; i < course.runs.size(); ++i) {
-        if (is_floor(course.runs[i].spec)) continue;
-        const std::string& label = course.runs[i].label;
+        "set xlabel 'promised of a triangle, pixels'\nset ylabel 'measured of it, pixels'\nset logscale xy\n"
+        "set format x '%g'\nset format y '%g'\nset xrange [0.01:*]\nset yrange [0.005:*]\n";
+    chart.script += "plot x with lines lc rgb \"#000000\" dt 2 lw 1.5 title 'as much as was promised'";
+    size_t place = 0;
+    for (const std::string& family : families_of(course)) {
+        const char* colour = kColours[place % kColours.size()];
+        std::string of = fmt::format("(strcol(1) eq {} ? ", quoted(family));
         chart.script += fmt::format(
-            ", \\\n'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):{} with points pt 7 ps 0.6 {} title {}",
-            quoted(label), column_of("predicted_error_px"), column_of("s_max_px"), style_of(course, i, 1), quoted(label));
+            ", \\\n'../honesty.csv' skip 1 using {0}$7 : NaN):6 with linespoints pt {1} ps 0.6 lw 1.8 lc rgb \"{2}\" title {3}",
+            of, kPoints[place % kPoints.size()], colour, quoted(family + ": the worst triangle"));
+        chart.script +=
+            fmt::format(", \\\n'../honesty.csv' skip 1 using {0}$2 : NaN):4 with lines dt 3 lw 1.8 lc rgb \"{1}\" title {2}", of,
+                        colour, quoted(family + ": the median triangle"));
+        ++place;
     }
     chart.script += "\n";
     return chart;
+}
+
+bool has_honesty(const CourseResult& course) {
+    return std::any_of(course.runs.begin(), course.runs.end(), [](const RunResult& run) { return has_ratios(run.g.all()); });
 }
 
 }  // namespace
@@ -184,7 +217,7 @@ std::vector<Chart> charts_of(const CourseResult& course) {
     charts.push_back(over_flight(course));
     if (!has_pictures(course)) return charts;
     charts.push_back(distribution(course));
-    charts.push_back(promise(course));
+    if (has_honesty(course)) charts.push_back(promise(course));
     return charts;
 }
 

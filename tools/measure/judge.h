@@ -8,8 +8,8 @@
 
 namespace overlook::measure {
 
-// What a method promised of a frame, in pixels, for the rule of holes: what it predicted, and no more than it was asked for. 0
-// for one that is not asked for pixels.
+// What a method promised of a frame, in pixels, for the rule of holes: what it predicted, and no more than it was asked for
+// unless a budget of triangles kept it from that. 0 for one that is not asked for pixels.
 double promised_px(const MethodSpec& spec, const Counters& counters);
 
 // The reference with so many more pixels on every side.

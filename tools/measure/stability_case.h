@@ -4,7 +4,8 @@
 //      "scene": "../scenes/sample.json", "flight": "../flights/s01.json",     paths relative to the case's file
 //      "settings": {"drop_every": 7},
 //      "gates": [{"figure": "pop_index_ratio", "most": 1.1}],
-//      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"]}
+//      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"],
+//      "note": "what is known of a gate that is missed"}                     for the page; may be left out
 //
 // methods: whom the case concerns. runs: for which of them the case is ready to be run today; the others owe it. A case that no
 // method can run yet may be without scene and flight.
@@ -32,11 +33,12 @@ struct CaseGate {
 
 // What happens during the run besides the flight.
 struct CaseSettings {
-    uint32_t drop_every = 0;              // every n-th frame is not drawn; 0 = none
-    std::vector<double> world_moves_m;    // the whole run again with world and cameras moved by so much along x and y
-    std::vector<double> resize_shares;    // at equally spaced frames the picture's size becomes this share of the first size
-    double budget_share = 1;              // from the middle frame on the triangle budget is this share
-    bool goes_backwards = false;          // the frames again, in reverse order
+    uint32_t drop_every = 0;            // every n-th frame is not drawn; 0 = none
+    std::vector<double> world_moves_m;  // the whole run again with world and cameras moved by so much along x and y
+    std::vector<double> resize_shares;  // at equally spaced frames the picture's size becomes this share of the first size
+    double budget_share = 1;            // from the middle frame on the triangle budget is this share
+    uint32_t cameras = 1;               // the flight in so many equally long legs, each flown by a camera of its own, all at once
+    bool goes_backwards = false;        // the frames again, in reverse order
     std::optional<double> changed_pixel;  // by how much a pixel must change to count, 0..1
 };
 
@@ -48,6 +50,7 @@ struct Case {
     std::vector<CaseGate> gates;
     std::vector<std::string> methods;  // of scene::kMethods
     std::vector<std::string> runs;     // of methods
+    std::string note{};                // what is known of a gate that is missed; empty = nothing
 };
 
 // The names of the figures that a gate may hold.

@@ -58,6 +58,45 @@ Result<uint64_t> pixels_cut(Stage& stage, const MethodSpec& spec, const view::Ca
     return uint64_t(std::count_if(frame.depth_m.begin(), frame.depth_m.end(), is_cut));
 }
 
+// Every pixel where it was.
+Motion standing_still(uint32_t width, uint32_t height) {
+    Motion motion;
+    motion.width = width;
+    motion.height = height;
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            motion.x_px.push_back(float(x));
+            motion.y_px.push_back(float(y));
+        }
+    motion.valid_count = motion.x_px.size();
+    return motion;
+}
+
+// The greatest mean change of a tile, luma 0..1, when a frame is drawn with the triangles of the frame before instead of its own.
+// A pop is such a change; what else W sees is there with triangles that never change as well.
+Result<double> change_by_triangles(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras) {
+    Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
+    if (!target) return tl::unexpected(target.error());
+    Motion still = standing_still(stage.width_px, stage.height_px);
+    auto drawn = [&](const terrain::Cut& cut, const view::Camera& camera) {
+        stage.world.drawing->draw(*target, cut, camera, stage.world.look);
+        return target->read();
+    };
+    terrain::Cut before, now;
+    double greatest = 0;
+    for (const view::Camera& camera : cameras) {
+        stage.world.refiner->cut_by_pixels(camera, setting(spec, "error-px"), now, morph_of(spec));
+        if (!before.indices.empty()) {
+            ImageRgb8 held = drawn(before, camera), own = drawn(now, camera);
+            RgbView held_view{held.width, held.height, held.pixels}, own_view{own.width, own.height, own.pixels};
+            TemporalError change = temporal_error(still, held_view, own_view, held_view, held_view);
+            for (float tile : change.tiles) greatest = std::max(greatest, double(tile));
+        }
+        std::swap(before, now);
+    }
+    return greatest;
+}
+
 }  // namespace
 
 Result<std::vector<Finding>> run_dolly(Stage& stage, const Case&, const scene::Flight& flight,
@@ -68,14 +107,18 @@ Result<std::vector<Finding>> run_dolly(Stage& stage, const Case&, const scene::F
     std::vector<Finding> findings;
     for (size_t i = 0; i < specs.size(); ++i) {
         const RunResult& run = course->runs[i];
+        Result<double> change = change_by_triangles(stage, specs[i], cameras);
+        if (!change) return tl::unexpected(change.error());
         Finding finding;
         finding.figures["pop_index"] = run.pop.index;
+        finding.figures["change_by_triangles"] = *change;
         finding.frames = uint32_t(cameras.size());
         finding.worst = shown(run.worst_w);
         finding.sentence = fmt::format(
             "The greatest unrest above full geometry's is {:.4f} luma, in frame {}, tile {}, {}; median {:.4f}, "
-            "full geometry's {:.4f}.",
-            run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median);
+            "full geometry's {:.4f}. New triangles alone, under a camera held still, change no tile by more than {:.5f} luma.",
+            run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median,
+            *change);
         findings.push_back(std::move(finding));
     }
     return findings;
@@ -89,7 +132,7 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
         Finding& finding = (*findings)[i];
         double worst_px = 0, above = 0;
         for (const view::Camera& camera : cameras) {
-            double error_px = displacement_px(stage, specs[i], camera);
+            double error_px = displacement_of(stage, specs[i], camera).measured_px;
             worst_px = std::max(worst_px, error_px);
             above += error_px > 2 * stage.asked_px ? 1 : 0;
         }
@@ -113,7 +156,8 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
         Finding& finding = (*findings)[i];
         // A cut depends on the camera alone, so that the frames after the first are the first again.
         double worst_px = 0;
-        for (const view::Camera& camera : arrivals) worst_px = std::max(worst_px, displacement_px(stage, specs[i], camera));
+        for (const view::Camera& camera : arrivals)
+            worst_px = std::max(worst_px, displacement_of(stage, specs[i], camera).measured_px);
         finding.figures["frames_until_error_met"] = worst_px <= stage.asked_px ? 0 : double(all.size());
         finding.sentence = fmt::format(
             "In the very frames of arrival no source sample is drawn farther than {:.3f} px from its "
@@ -157,11 +201,29 @@ Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene:
 
 Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::Flight& flight,
                                        std::span<const MethodSpec> specs) {
-    Result<std::vector<Finding>> findings = count_holes(stage, cameras_of(stage, flight, Pick::spread), flight.step_s, specs);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
-    for (Finding& finding : *findings) {
-        finding.figures["fallbacks_unsaid"] = 0;
-        finding.sentence = "A terrain is baked for every place: it has nothing to fall back to, and nothing to say.";
+    // A terrain is baked for every distance down to where its own heights are too coarse for the error asked: nearer, it falls
+    // back to them. It says so by predicting more than was asked.
+    double finest_m = stage.world.terrain->finest_error_m;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        uint32_t fallbacks = 0, unsaid = 0;
+        double worst_px = 0;
+        for (const view::Camera& camera : cameras) {
+            Displacement frame = displacement_of(stage, specs[i], camera, finest_m);
+            worst_px = std::max(worst_px, frame.measured_px);
+            if (frame.measured_px <= stage.asked_px) continue;
+            ++fallbacks;
+            if (frame.predicted_px <= stage.asked_px) ++unsaid;
+        }
+        Finding& finding = (*findings)[i];
+        finding.figures["fallbacks_unsaid"] = unsaid;
+        finding.sentence = fmt::format(
+            "Its heights are within {:g} m of the source's; with the worst of them a point may stand {:.3f} px from its place, "
+            "{} px "
+            "asked. {} of {} frames cannot keep that, {} of them without saying so.",
+            finest_m, worst_px, stage.asked_px, fallbacks, cameras.size(), unsaid);
     }
     return findings;
 }
