@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "formats/container.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
+#include "tools/measure/capture.h"
 #include "tools/measure/figures.h"
+#include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/numbers/silhouette.h"
 #include "tools/measure/options.h"
 
 namespace overlook::measure {
@@ -118,6 +123,90 @@ TEST(MeasuredCourse, PutsTheFloorWhereItBelongs) {
     EXPECT_EQ(course.runs[2].pop.index, 1);
     EXPECT_EQ(course.runs[3].frames[0].counters.triangle_count, 2u * 64 * 64);
     EXPECT_EQ(percentiles_of(course.runs[3], "hole_px").max, 0);
+}
+
+TEST(ReferenceRenderer, ShowsTheSamePixelsInItsSurroundings) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"full"}, {});
+    view::Camera camera = hills.course.cameras[0];
+    Result<ReferenceRenderer> renderer = ReferenceRenderer::make(hills.world, context->renderer(), 64, 64, "");
+    ASSERT_TRUE(renderer);
+    Result<Frame> frame = renderer->frame(camera), wide = renderer->surroundings(camera, 5);
+    ASSERT_TRUE(frame && wide);
+    ASSERT_EQ(wide->width, 74u);
+    ASSERT_EQ(wide->height, 74u);
+    size_t same = 0, of_ground = 0;
+    for (size_t y = 0; y < 64; ++y)
+        for (size_t x = 0; x < 64; ++x) {
+            size_t at = y * 64 + x, wide_at = (y + 5) * 74 + x + 5;
+            if (frame->ids[at] == kBackground) continue;
+            ++of_ground;
+            same += wide->ids[wide_at] == frame->ids[at] && std::abs(wide->depth_m[wide_at] / frame->depth_m[at] - 1) < 1e-3;
+        }
+    EXPECT_GT(of_ground, 1000u);
+    EXPECT_GE(double(same), 0.99 * double(of_ground));
+}
+
+// Draws a cut and takes its picture.
+Frame picture_of(World& world, const terrain::Cut& cut, const view::Camera& camera) {
+    Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, 1);
+    EXPECT_TRUE(target);
+    world.drawing->draw(*target, cut, camera, world.look);
+    return captured(*target, *target, camera);
+}
+
+// Whether a pixel shows the sky and has ground above it, as no lowered crest has.
+bool shows_sky_below_ground(const Frame& frame, size_t at) {
+    if (frame.ids[at] != kBackground) return false;
+    for (size_t above = at; above >= frame.width; above -= frame.width)
+        if (frame.ids[above - frame.width] != kBackground) return true;
+    return false;
+}
+
+TEST(HolesOfACut, AreFoundWhereATriangleIsMissingWhateverWasPromised) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    constexpr double kPromised_px = 8;
+    constexpr uint32_t kGround = kBackground + 1;
+    Hills hills({"full"}, {});
+    view::Camera camera = test::from_south(*hills.world.terrain, 128, 128);
+    terrain::Cut full, whole;
+    hills.world.refiner->cut_by_metres(-1, full);
+    hills.world.refiner->cut_by_pixels(camera, kPromised_px, whole, 0);
+    Frame reference = picture_of(hills.world, full, camera), sound = picture_of(hills.world, whole, camera);
+    HolePixels lowered = hole_pixels(sound, reference, kGround, {kPromised_px});
+    EXPECT_EQ(lowered.count, 0u);
+    EXPECT_GT(lowered.allowed, 100u) << "the cut is coarse enough to move crests";
+
+    size_t cracks = 0, crack_px = 0, counted_px = 0;
+    for (size_t triangle = 0; 3 * triangle < whole.indices.size(); ++triangle) {
+        terrain::Cut torn = whole;
+        auto from = torn.indices.begin() + ptrdiff_t(3 * triangle);
+        torn.indices.erase(from, from + 3);
+        Frame test = picture_of(hills.world, torn, camera);
+        std::vector<uint8_t> strict = hole_pixels(test, reference, kGround).mask;
+        HolePixels holes = hole_pixels(test, reference, kGround, {kPromised_px});
+        size_t in_crack = 0;
+        for (size_t at = 0; at < strict.size(); ++at) {
+            if (strict[at] == 0 || !shows_sky_below_ground(test, at)) continue;
+            ++in_crack;
+            counted_px += holes.mask[at] == strict[at];
+        }
+        crack_px += in_crack;
+        if (in_crack < 4) continue;
+        ++cracks;
+        EXPECT_GT(holes.count, 0u) << "triangle " << triangle << " opens " << in_crack << " px";
+    }
+    EXPECT_GT(cracks, 20u);
+    EXPECT_GE(double(counted_px), 0.99 * double(crack_px)) << counted_px << " of " << crack_px;
+}
+
+TEST(MeasuredCourse, PromisesNoMoreThanWasAskedFor) {
+    Counters counters;
+    counters.predicted_error_px = 3;
+    EXPECT_EQ(promised_px(*parse_method("terrain@error-px=4"), counters), 3);
+    EXPECT_EQ(promised_px(*parse_method("terrain@error-px=2"), counters), 2);
+    EXPECT_EQ(promised_px(*parse_method("terrain@error-px=2@triangles=1000"), counters), 3);
+    EXPECT_EQ(promised_px(*parse_method("full"), counters), 0);
 }
 
 TEST(MeasuredCourse, SeesTheErrorOfACoarseCut) {

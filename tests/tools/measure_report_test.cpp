@@ -40,7 +40,7 @@ RunResult run_of(const MethodSpec& spec, double base_ms, double e) {
         if (i % 5 == 0) record.numbers.e_p99 = record.numbers.e_mean = e + i / 1000.0;
         if (i > 0) record.numbers.w = e / 10;
         record.numbers.s_p95_px = record.numbers.s_max_px = 1;
-        record.numbers.hole_count = 0;
+        record.numbers.hole_count = record.numbers.hole_allowed_count = 0;
         record.numbers.psnr_db = 40;
         record.numbers.luma_difference = 0.01;
         run.frames.push_back(record);

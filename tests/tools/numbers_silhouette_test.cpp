@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <tuple>
 
 #include "tests/tools/numbers_pictures.h"
@@ -189,6 +192,119 @@ TEST(Holes, FailTheirGateWithASinglePixel) {
     EXPECT_EQ(hole_pixels(reference, reference, 1).count, 0u);
     EXPECT_EQ(hole_pixels(empty, reference, 1).count, 1u);
     EXPECT_EQ(hole_pixels(reference, empty, 1).count, 0u);
+}
+
+// The frame with so many more rows and columns of what the function says stands outside it.
+Frame around(const Frame& frame, uint32_t margin, const std::function<bool(uint32_t x, uint32_t y)>& is_surface) {
+    Frame wide = mask_frame(frame.width + 2 * margin, frame.height + 2 * margin, is_surface);
+    wide.camera = frame.camera;
+    return wide;
+}
+
+TEST(Holes, AtTheOutlineAreForgivenForABorderJustOutsideAlone) {
+    Frame reference = mask_frame(30, 20, [](uint32_t, uint32_t) { return true; }), test = reference;
+    show_background(test, 12, 0);
+    uint32_t margin = surroundings_px(0);
+    HolePixels unknown = hole_pixels(test, reference, 1);
+    EXPECT_EQ(unknown.count, 1u);
+    EXPECT_TRUE(unknown.needs_surroundings);
+    Frame whole = around(reference, margin, [](uint32_t, uint32_t) { return true; });
+    EXPECT_EQ(hole_pixels(test, reference, 1, {0, &whole}).count, 1u) << "ground all round: a real hole in the outermost row";
+    Frame horizon = around(reference, margin, [=](uint32_t, uint32_t y) { return y >= margin; });
+    EXPECT_EQ(hole_pixels(test, reference, 1, {0, &horizon}).count, 0u) << "the sky begins one row higher";
+    Frame far_horizon = around(reference, margin, [=](uint32_t, uint32_t y) { return y + 2 >= margin; });
+    EXPECT_EQ(hole_pixels(test, reference, 1, {0, &far_horizon}).count, 1u) << "two rows of ground outside";
+}
+
+TEST(Holes, FarFromTheOutlineNeedNoSurroundings) {
+    Frame reference = mask_frame(40, 40, [](uint32_t, uint32_t) { return true; }), test = reference;
+    show_background(test, 20, 20);
+    EXPECT_FALSE(hole_pixels(test, reference, 1).needs_surroundings);
+    EXPECT_TRUE(hole_pixels(test, reference, 1, {30}).needs_surroundings);
+}
+
+// A near slope at 100 m below a crest in a row, farther ground at 200 m above it, all one thing; the eye looks level.
+Frame crest_frame(uint32_t crest) {
+    Frame frame = mask_frame(60, 60, [](uint32_t, uint32_t) { return true; });
+    for (uint32_t y = 0; y < crest; ++y)
+        for (uint32_t x = 0; x < 60; ++x) frame.depth_m[at(frame, x, y)] = 200;
+    return frame;
+}
+
+TEST(Holes, CrestMayStandAsMuchLowerAsWasPromised) {
+    Frame reference = crest_frame(20);
+    for (double promised_px : {0.0, 1.0, 4.0, 8.0})
+        for (uint32_t lower : {1u, 2u, 3u, 5u, 6u, 9u, 10u, 11u, 14u}) {
+            HolePixels holes = hole_pixels(crest_frame(20 + lower), reference, 1, {promised_px});
+            uint32_t forgiven = promised_px > 0 ? std::max(2u, uint32_t(promised_px + 1.5)) : 2;
+            EXPECT_EQ(holes.deeper, lower > forgiven ? (lower - forgiven) * 60 : 0) << promised_px << " px, lower by " << lower;
+            EXPECT_EQ(holes.count + holes.allowed, lower > 2 ? (lower - 2) * 60 : 0) << "the strict count";
+        }
+}
+
+TEST(Holes, SkylineMayStandAsMuchLowerAsWasPromised) {
+    Frame reference = horizon_frame();
+    for (uint32_t lower : {1u, 2u, 3u, 9u, 10u, 11u, 12u}) {
+        Frame test = horizon_frame(60, 50, kHorizon + lower);
+        EXPECT_EQ(hole_pixels(test, reference, 1, {8}).count, lower > 9 ? (lower - 9) * 60 : 0) << lower;
+        EXPECT_EQ(hole_pixels(test, reference, 1).count, lower > 2 ? (lower - 2) * 60 : 0) << lower;
+    }
+}
+
+TEST(Holes, CrackIsOneWhateverWasPromised) {
+    Frame reference = crest_frame(20);
+    for (uint32_t y = 0; y < 8; ++y)
+        for (uint32_t x = 0; x < 60; ++x) show_background(reference, x, y);
+    // Below the crest by less than the promise, two rows high, four columns wide: ground before and above it.
+    for (uint32_t top : {22u, 24u, 40u}) {
+        Frame deep = reference, through = reference;
+        for (uint32_t y = top; y < top + 2; ++y)
+            for (uint32_t x = 30; x < 34; ++x) {
+                deep.depth_m[at(deep, x, y)] = 150;
+                show_background(through, x, y);
+            }
+        EXPECT_EQ(hole_pixels(through, reference, 1, {8}).background, 8u) << top;
+        HolePixels holes = hole_pixels(deep, reference, 1, {8});
+        EXPECT_EQ(holes.deeper, 8u) << top;
+        EXPECT_EQ(holes.allowed, 0u) << top;
+    }
+}
+
+TEST(Holes, UprightCrackIsOneFartherFromTheCrestThanPromised) {
+    Frame reference = crest_frame(20), test = reference;
+    for (uint32_t y = 35; y < 60; ++y) test.depth_m[at(test, 30, y)] = 180;
+    EXPECT_EQ(hole_pixels(test, reference, 1, {8}).count, 25u);
+}
+
+TEST(Holes, OtherThingsAreNeverPromised) {
+    Frame reference = crest_frame(20), test = reference;
+    test.ids[at(test, 30, 24)] = 2;
+    EXPECT_EQ(hole_pixels(test, reference, 1, {8}).other_thing, 1u);
+}
+
+// A plane seen straight from above, lowered by so many metres, with so many more pixels on every side.
+Frame plane_below(double lower_m, uint32_t margin = 0) {
+    view::Camera camera;
+    camera.width_px = camera.height_px = 64 + 2 * margin;
+    camera.fov_y_deg = 2 * std::atan(camera.height_px / 64.0) * 180 / std::numbers::pi;
+    camera.pitch_deg = -90;
+    camera.position_m = {0, 0, 1000 + lower_m};
+    return plane_frame(camera);
+}
+
+TEST(Holes, GroundLoweredStraightBelowTheEyeHardlyMoves) {
+    Frame reference = plane_below(0), lowered = plane_below(100), sunk = plane_below(500);
+    EXPECT_EQ(hole_pixels(lowered, reference, 1).count, 64u * 64u) << "10 % deeper everywhere";
+    // Places lowered by a tenth of the way stand too far in by a tenth of their way from the middle: 4.5 px in a corner.
+    uint32_t margin = surroundings_px(4);
+    Frame wide = plane_below(0, margin);
+    HolePixels holes = hole_pixels(lowered, reference, 1, {4, &wide});
+    EXPECT_EQ(holes.count, 0u);
+    EXPECT_EQ(holes.allowed, 64u * 64u);
+    // By half of it: 22 px in a corner, and 5.5 or less within 11 px of the middle.
+    size_t near_middle = hole_pixels(sunk, reference, 1, {4, &wide}).allowed;
+    EXPECT_GT(near_middle, 250u);
+    EXPECT_LT(near_middle, 400u);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::optional<double> of_g(R record, Value value) {
     return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
 }
 
-constexpr std::array<Figure, 23> kFigures = {{
+constexpr std::array<Figure, 24> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -31,6 +31,8 @@ constexpr std::array<Figure, 23> kFigures = {{
      true},
     {"s_max_px", "the same, greatest", [](R r) -> O { return r.numbers.s_max_px; }, true},
     {"hole_px", "pixels that show through what should be there", [](R r) -> O { return r.numbers.hole_count; }, true},
+    {"hole_allowed_px", "pixels that would be holes, but for the error that was promised",
+     [](R r) -> O { return r.numbers.hole_allowed_count; }, true},
     {"psnr_db", "peak signal to noise against the reference", [](R r) -> O { return r.numbers.psnr_db; }, true},
     {"luma_difference", "mean absolute difference of luma, 0..1", [](R r) -> O { return r.numbers.luma_difference; }, true},
     {"frame_ms", "deciding and drawing", [](R r) -> O { return r.frame_ms(); }, false},

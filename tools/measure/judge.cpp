@@ -33,20 +33,48 @@ std::vector<float> map_of(const TemporalError& error, uint32_t width, uint32_t h
     return map;
 }
 
+// The holes of all things in the frame; `around` may be null.
+HolePixels holes_of(const Frame& test, const Frame& reference, double promised_px, const Frame* around) {
+    std::set<uint32_t> things(reference.ids.begin(), reference.ids.end());
+    things.erase(kBackground);
+    HolePixels all;
+    for (uint32_t thing : things) {
+        HolePixels holes = hole_pixels(test, reference, thing, {promised_px, around});
+        all.count += holes.count;
+        all.allowed += holes.allowed;
+        all.needs_surroundings |= holes.needs_surroundings;
+    }
+    return all;
+}
+
 }  // namespace
 
-void judge_picture(const Frame& test, const Frame& reference, Numbers& numbers) {
+double promised_px(const MethodSpec& spec, const Counters& counters) {
+    auto value_of = [&](std::string_view name) {
+        auto one = std::find_if(spec.settings.begin(), spec.settings.end(), [&](const auto& each) { return each.first == name; });
+        return one == spec.settings.end() ? 0 : one->second;
+    };
+    // A budget of triangles raises the error where it must: then the frame's own promise is all there is.
+    return value_of("triangles") > 0 ? counters.predicted_error_px : std::min(value_of("error-px"), counters.predicted_error_px);
+}
+
+Result<void> judge_picture(const Frame& test, const Frame& reference, double promised_px, const Surroundings& around,
+                           Numbers& numbers) {
     numbers.psnr_db = psnr_db(rgb_of(test), rgb_of(reference));
     numbers.luma_difference = luma_difference_mean(rgb_of(test), rgb_of(reference));
     SilhouetteError outline = silhouette_error(test, reference);
     numbers.s_p95_px = outline.p95_px;
     numbers.s_max_px = outline.max_px;
 
-    std::set<uint32_t> things(reference.ids.begin(), reference.ids.end());
-    things.erase(kBackground);
-    double holes = 0;
-    for (uint32_t thing : things) holes += double(hole_pixels(test, reference, thing).count);
-    numbers.hole_count = holes;
+    HolePixels holes = holes_of(test, reference, promised_px, nullptr);
+    if (holes.needs_surroundings) {
+        Result<Frame> wide = around(surroundings_px(promised_px));
+        if (!wide) return tl::unexpected(wide.error());
+        holes = holes_of(test, reference, promised_px, &*wide);
+    }
+    numbers.hole_count = double(holes.count);
+    numbers.hole_allowed_count = double(holes.allowed);
+    return {};
 }
 
 void judge_e(const Frame& test, const Frame& reference, FrameRecord& record, WorstFrame& worst) {

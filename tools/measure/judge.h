@@ -1,13 +1,24 @@
 // The numbers of one frame (tools/measure/numbers/), put where a run keeps them.
 #pragma once
 
+#include <functional>
+
 #include "tools/measure/numbers/temporal.h"
 #include "tools/measure/run.h"
 
 namespace overlook::measure {
 
-// What is taken of every frame: S, holes, PSNR, luma.
-void judge_picture(const Frame& test, const Frame& reference, Numbers& numbers);
+// What a method promised of a frame, in pixels, for the rule of holes: what it predicted, and no more than it was asked for
+// unless a budget of triangles kept it from that. 0 for one that is not asked for pixels.
+double promised_px(const MethodSpec& spec, const Counters& counters);
+
+// The reference with so many more pixels on every side.
+using Surroundings = std::function<Result<Frame>(uint32_t margin_px)>;
+
+// What is taken of every frame: S, holes, PSNR, luma. around: asked only where a hole so near the outline is found that what
+// stands outside the picture may be its reason; fails as it does.
+Result<void> judge_picture(const Frame& test, const Frame& reference, double promised_px, const Surroundings& around,
+                           Numbers& numbers);
 
 // E, and the frame itself if it is the worst so far by the 99th percentile over its pixels.
 void judge_e(const Frame& test, const Frame& reference, FrameRecord& record, WorstFrame& worst);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numbers>
 
 #include "formats/mapped_file.h"
 #include "runtime/terrain/draw_shaders.h"
@@ -32,6 +34,15 @@ std::string bits_of(const view::Camera& camera) {
         bits += bits_of(number);
     }
     return bits + fmt::format("{} {}\n", camera.width_px, camera.height_px);
+}
+
+// The camera of a picture with more pixels on every side, each as large as before.
+view::Camera widened(view::Camera camera, uint32_t margin_px) {
+    double focal_px = view::focal_px(camera);
+    camera.width_px += 2 * margin_px;
+    camera.height_px += 2 * margin_px;
+    camera.fov_y_deg = 2 * std::atan(camera.height_px / (2 * focal_px)) * 180 / std::numbers::pi;
+    return camera;
 }
 
 // The width of as few equal columns as make up `whole`, none wider than `most`; the last may be cut off by less than there are
@@ -81,6 +92,16 @@ Frame ReferenceRenderer::drawn(const view::Camera& camera) {
             copy_into(frame, small, left_px / kSupersampling, top_px / kSupersampling);
         }
     }
+    return frame;
+}
+
+Result<Frame> ReferenceRenderer::surroundings(const view::Camera& camera, uint32_t margin_px) {
+    view::Camera wide = widened(camera, margin_px);
+    Result<gl::Target> target = gl::Target::make(wide.width_px, wide.height_px, 1);
+    if (!target) return tl::unexpected(target.error());
+    world_->drawing->draw(*target, full_, wide, world_->look);
+    Frame frame = captured(*target, *target, wide);
+    std::fill(frame.rgb.begin(), frame.rgb.end(), uint8_t(0));
     return frame;
 }
 

@@ -31,6 +31,10 @@ class ReferenceRenderer {
     // A kept frame that does not have its right checksum is drawn anew and replaced. Fails with Exit::cannot_write.
     Result<Frame> frame(const view::Camera& camera);
 
+    // The same, wider and higher by so many pixels on every side: what stands just outside the picture. Its depth and ids alone;
+    // colour is black, nothing is kept. Inside, pixels may differ from frame()'s by rounding. Fails with Exit::impossible.
+    Result<Frame> surroundings(const view::Camera& camera, uint32_t margin_px);
+
     uint64_t drawn_count() const { return drawn_count_; }      // frames drawn
     uint64_t kept_count() const { return kept_count_; }        // frames taken from the folder
     uint64_t damaged_count() const { return damaged_count_; }  // kept frames that were refused

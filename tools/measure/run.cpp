@@ -119,7 +119,7 @@ void take_e(const Frame& test, const Frame& reference, FrameRecord& record, Wors
 // Measures one frame of all runs. Frame 0 has none before it.
 class Judge {
   public:
-    void judge(Field& field, uint32_t frame, Frame reference) {
+    Result<void> judge(Field& field, uint32_t frame, Frame reference, const Surroundings& around) {
         bool has_event = std::any_of(field.results.begin(), field.results.end(),
                                      [&](const RunResult& run) { return run.frames[frame].counters.event_count > 0; });
         bool wants_e = frame % kFlipStep == 0 || has_event || had_event_;
@@ -129,7 +129,9 @@ class Judge {
             Running& running = field.runs[i];
             RunResult& result = field.results[i];
             FrameRecord& record = result.frames[frame];
-            judge_picture(running.now, reference, record.numbers);
+            double promise_px = promised_px(result.spec, record.counters);
+            Result<void> judged = judge_picture(running.now, reference, promise_px, around, record.numbers);
+            if (!judged) return judged;
             if (wants_e) take_e(running.now, reference, record, result.worst_e);
             if (has_event && frame > 0) take_e(running.before, before_, result.frames[frame - 1], result.worst_e);
             if (motion) {
@@ -140,6 +142,7 @@ class Judge {
         }
         had_event_ = has_event;
         before_ = std::move(reference);
+        return {};
     }
 
   private:
@@ -192,8 +195,10 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
             if (g_frames.contains(frame)) field->take_g(run);
             spent.promises_ms += promising.elapsed_ms();
         }
+        auto around = [&](uint32_t margin_px) { return reference->surroundings(camera, margin_px); };
         gl::Timer judging;
-        judge.judge(*field, frame, std::move(*truth));
+        Result<void> judged = judge.judge(*field, frame, std::move(*truth), around);
+        if (!judged) return tl::unexpected(judged.error());
         spent.numbers_ms += judging.elapsed_ms();
         done(double(frame + 1) / double(course.cameras.size()));
     }

@@ -31,7 +31,7 @@ struct Numbers {
     std::optional<double> e_p99, e_mean;  // LDR-FLIP over the pixels: every tenth frame and round events
     std::optional<double> w;              // from the second frame on
     std::optional<double> s_p95_px, s_max_px;
-    std::optional<double> hole_count;
+    std::optional<double> hole_count, hole_allowed_count;  // allowed: not counted, for the error promised explains them
     std::optional<double> psnr_db, luma_difference;
     std::optional<Honesty> g;  // of the things drawn: on a few frames, of methods that promise something of each
 };
