@@ -28,7 +28,7 @@ enum class DepthSpace {
 
 struct DepthTest {
     DepthSpace space = DepthSpace::window;
-    double thickness = 1e-5;  // of equation 3, > 0, in the units of the space; to be swept
+    double thickness = 1e-4;  // of equation 3, > 0, in the units of the space; to be swept. 1e-4 is 100 m deep at 1 km, near 1 m
     double far_m = 100'000;   // of the ordinary depth buffer: what is beyond is hidden. Not used in eye space
 };
 
