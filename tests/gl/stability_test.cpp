@@ -44,18 +44,18 @@ TEST(StabilityRun, SwitchesAreSeenOnlyWhereLevelsPop) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills;
     Stage stage = hills.stage(context->renderer(), 4);
-    EXPECT_EQ(found(run_jitter, stage, {}, hills.flight, "terrain:morph").figures.at("switches_after_first_second"), 0);
-    EXPECT_GT(found(run_jitter, stage, {}, hills.flight, "terrain").figures.at("switches_after_first_second"), 0);
+    EXPECT_EQ(found(run_jitter, stage, {}, hills.flight, "terrain").figures.at("switches_after_first_second"), 0);
+    EXPECT_GT(found(run_jitter, stage, {}, hills.flight, "terrain:hard").figures.at("switches_after_first_second"), 0);
 }
 
 TEST(StabilityRun, ErrorAboveTheOneAskedIsSeen) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills;
     Stage stage = hills.stage(context->renderer(), 3);
-    Finding right = found(run_yaw, stage, {}, hills.flight, "terrain:morph@samples=1");
+    Finding right = found(run_yaw, stage, {}, hills.flight, "terrain@samples=1");
     EXPECT_EQ(right.figures.at("frames_above_twice_asked_error"), 0);
     EXPECT_EQ(right.figures.at("hole_pixels"), 0);
-    Finding broken = found(run_yaw, stage, {}, hills.flight, "terrain:morph@samples=1@error-px=4");
+    Finding broken = found(run_yaw, stage, {}, hills.flight, "terrain@samples=1@error-px=4");
     EXPECT_EQ(broken.figures.at("frames_above_twice_asked_error"), 3);
     ASSERT_TRUE(broken.worst);
     EXPECT_NE(broken.worst->test.pixels, broken.worst->reference.pixels);
@@ -65,8 +65,8 @@ TEST(StabilityRun, PopIndexIsWorseWhereLevelsPop) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills;
     Stage stage = hills.stage(context->renderer(), 8);
-    double morphed = found(run_dolly, stage, {}, hills.flight, "terrain:morph@error-px=3").figures.at("pop_index");
-    double popping = found(run_dolly, stage, {}, hills.flight, "terrain@error-px=3").figures.at("pop_index");
+    double morphed = found(run_dolly, stage, {}, hills.flight, "terrain@error-px=3").figures.at("pop_index");
+    double popping = found(run_dolly, stage, {}, hills.flight, "terrain:hard@error-px=3").figures.at("pop_index");
     EXPECT_LT(morphed, popping);
 }
 
@@ -78,9 +78,9 @@ TEST(StabilityRun, PicturesDependOnTheCameraAlone) {
     each.settings.world_moves_m = {1e5, 1e7};
     each.settings.changed_pixel = 0.001;
     each.settings.resize_shares = {0.5, 1.25};
-    EXPECT_EQ(found(run_back_and_forth, stage, each, hills.flight, "terrain:morph").figures.at("path_difference_grey"), 0);
-    EXPECT_EQ(found(run_resize, stage, each, hills.flight, "terrain:morph").figures.at("stale_pixels"), 0);
-    EXPECT_LE(found(run_moved_world, stage, each, hills.flight, "terrain:morph").figures.at("changed_pixel_share"), 1e-4);
+    EXPECT_EQ(found(run_back_and_forth, stage, each, hills.flight, "terrain").figures.at("path_difference_grey"), 0);
+    EXPECT_EQ(found(run_resize, stage, each, hills.flight, "terrain").figures.at("stale_pixels"), 0);
+    EXPECT_LE(found(run_moved_world, stage, each, hills.flight, "terrain").figures.at("changed_pixel_share"), 1e-4);
 }
 
 TEST(StabilitySuite, HoldsItsGatesAgainstTheBaselineThatPops) {
@@ -91,7 +91,7 @@ TEST(StabilitySuite, HoldsItsGatesAgainstTheBaselineThatPops) {
     Case each{"S02", "jitter", "unused", folder / "flight.json", {}, {}, {"terrain"}, {"terrain"}};
     each.gates.push_back({"switches_after_first_second", 0, "all", -1});
     ASSERT_TRUE(write_file(each.flight, std::string_view(scene::json_from_flight(hills.flight))));
-    Result<SuiteResult> result = run_suite(stage, {each}, *specs_from({"terrain:morph", "terrain"}, {}), [](double) {});
+    Result<SuiteResult> result = run_suite(stage, {each}, *specs_from({"terrain", "terrain:hard"}, {}), [](double) {});
     ASSERT_TRUE(result) << result.error().message;
     ASSERT_EQ(result->verdicts.size(), 2u);
     EXPECT_TRUE(result->verdicts[0].is_kept());

@@ -101,7 +101,7 @@ TEST(FramesTable, HasARowForEveryFrameOfEveryRun) {
     auto rows = rows_of(frames_csv(a_course(), 0.5));
     ASSERT_EQ(rows.size(), 31u);
     for (const auto& row : rows) EXPECT_EQ(row.size(), 3 + figures().size());
-    EXPECT_EQ(cell(rows, 1, "run"), "terrain@error-px=1@samples=4");
+    EXPECT_EQ(cell(rows, 1, "run"), "terrain@error-px=1@samples=4@morph=0.5");
     EXPECT_EQ(cell(rows, 4, "frame"), "3");
     EXPECT_EQ(cell(rows, 4, "time_s"), "1.5");
     EXPECT_EQ(cell(rows, 4, "frame_ms"), "8");
@@ -254,14 +254,14 @@ TEST(Sentences, NameTheCheapestAtTheFloorOrTheNearest) {
     CourseResult course = a_course();
     EXPECT_NE(chart_sentence("front_ms", course)
                   .find("None is at the floor (within 1.02 times its E); the nearest is "
-                        "terrain@error-px=1@samples=4 at 1.95 times."),
+                        "terrain@error-px=1@samples=4@morph=0.5 at 1.95 times."),
               std::string::npos)
         << chart_sentence("front_ms", course);
     course.runs[0] = run_of(course.runs[0].spec, 5, 0.1);
     course.runs[0].floor = 2;
     EXPECT_NE(chart_sentence("front_ms", course)
                   .find("The cheapest at the floor (within 1.02 times its E) is "
-                        "terrain@error-px=1@samples=4, for 0.167 of the floor's cost."),
+                        "terrain@error-px=1@samples=4@morph=0.5, for 0.167 of the floor's cost."),
               std::string::npos)
         << chart_sentence("front_ms", course);
 }

@@ -46,10 +46,10 @@ struct MethodSpec {
     bool operator==(const MethodSpec&) const = default;
 };
 
-// "terrain:variant@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
+// "terrain:hard@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
 std::string label_of(const MethodSpec& spec);
 
-// "terrain:variant": all runs of one curve share it.
+// "terrain:hard": all runs of one curve share it.
 std::string family_of(const MethodSpec& spec);
 
 // The value of a setting that the method has.
