@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "formats/names.h"
+#include "runtime/lod_sprite/paper_visibility.h"
 #include "runtime/terrain/refine.h"
+#include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -20,9 +22,17 @@ constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
 constexpr std::array<SettingKind, 3> kTerrainSettings = {kErrorPx, kSamples, kMorph};
 constexpr std::array<SettingKind, 2> kHardSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<MethodKind, 3> kKinds = {MethodKind{"terrain", "", kTerrainSettings},
-                                              MethodKind{"terrain", "hard", kHardSettings},
-                                              MethodKind{"full", "", kFullSettings}};
+constexpr std::array<SettingKind, 7> kSpritePaperSettings = {
+    kErrorPx,
+    SettingKind{"low-error-px", 0.01, 1000, 16, false},
+    SettingKind{"key-error-px", 0.001, 1000, 1, false},
+    SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false},
+    SettingKind{"eye-depth", 0, 1, 0, true},
+    SettingKind{"strips", 0, 1, 0, true},
+    kSamples};
+constexpr std::array<MethodKind, 4> kKinds = {
+    MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
+    MethodKind{"lod-sprite", "paper", kSpritePaperSettings}, MethodKind{"full", "", kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -208,6 +218,7 @@ double morph_of(const MethodSpec& spec) {
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
+    if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     assert(spec.name == "terrain");
     return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
 }

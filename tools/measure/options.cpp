@@ -70,7 +70,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option(
            "--method", options.methods,
            "NAME[:variant][@setting=value]...: terrain (settings error-px, samples, morph), terrain:hard, whose levels pop "
-           "(error-px, samples), full (samples); may be repeated")
+           "(error-px, samples), lod-sprite:paper, as published (error-px of keyframes, low-error-px, key-error-px, "
+           "depth-thickness, "
+           "eye-depth, strips, samples), full (samples); may be repeated")
         ->type_name("METHOD")
         ->required()
         ->expected(1)
