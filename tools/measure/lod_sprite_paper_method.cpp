@@ -18,6 +18,7 @@ constexpr uint64_t kDrawCalls = 2;  // sky and ground
 paper::Options options_of(const MethodSpec& spec) {
     paper::Options options;
     options.key_error_px = setting(spec, "key-error-px");
+    options.error.plane = setting(spec, "drawn-plane") != 0 ? paper::Plane::drawn : paper::Plane::fan;
     options.depth.thickness = setting(spec, "depth-thickness");
     options.depth.space = setting(spec, "eye-depth") != 0 ? paper::DepthSpace::eye : paper::DepthSpace::window;
     if (setting(spec, "strips") != 0) options.strips = paper::StripOptions{};

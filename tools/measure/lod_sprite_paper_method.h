@@ -8,7 +8,8 @@
 
 namespace overlook::measure {
 
-// error-px: of the high cut, which keyframes are drawn from; low-error-px: of the low cut; key-error-px: equation 2's epsilon;
+// error-px: of the high cut, which keyframes are drawn from; low-error-px: of the low cut; key-error-px: equation 2's epsilon, for
+// C' on the fan of the corners' mean or, with drawn-plane=1, on the triangle that is drawn;
 // depth-thickness: equation 3's, of an ordinary depth buffer, or metres with eye-depth=1; strips=1: a strip has one texture.
 //
 // Of each frame: predicted_error_px is what equation 2 says of it (its root, in pixels), or of a keyframe the high cut's bound;

@@ -22,10 +22,11 @@ constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
 constexpr std::array<SettingKind, 3> kTerrainSettings = {kErrorPx, kSamples, kMorph};
 constexpr std::array<SettingKind, 2> kHardSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<SettingKind, 7> kSpritePaperSettings = {
+constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
     kErrorPx,
     SettingKind{"low-error-px", 0.01, 1000, 16, false},
     SettingKind{"key-error-px", 0.001, 1000, 1, false},
+    SettingKind{"drawn-plane", 0, 1, 0, true},
     SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false},
     SettingKind{"eye-depth", 0, 1, 0, true},
     SettingKind{"strips", 0, 1, 0, true},
