@@ -122,7 +122,7 @@ void Drawing::draw_novel(const gl::Target& target, const terrain::Cut& low, std:
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glDisable(GL_CULL_FACE);
-    ground_->draw_sky(camera);
+    ground_->draw_sky(camera, options);
 
     glm::mat4 key_clip_from_relative = view::projection(key) * view::rotation(key);
     glm::vec3 eye_from_key_m(camera.position_m - key.position_m);

@@ -137,6 +137,14 @@ Result<void> Drawing::make_programs() {
     return {};
 }
 
+namespace {
+
+view::Part part_of(const view::Camera& camera, const DrawOptions& options) {
+    return options.part.value_or(view::Part{0, 0, camera.width_px, camera.height_px});
+}
+
+}  // namespace
+
 void Drawing::set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
     constexpr double kFarthestCell = 1 << 30;
     glm::dvec3 place_m = camera.position_m - options.origin_m;
@@ -153,6 +161,8 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform2f(program.at("metres_per_cell"), float(metres_per_column_), float(-metres_per_row_));
     glUniform1f(program.at("camera_height_m"), float(place_m.z - base_m_));
     glUniformMatrix4fv(program.at("clip_from_relative"), 1, GL_FALSE, glm::value_ptr(clip_from_relative));
+    view::PartMap map = view::part_map(camera, part_of(camera, options));
+    glUniform4f(program.at("part"), float(map.scale.x), float(map.scale.y), float(map.shift.x), float(map.shift.y));
     glUniform2f(program.at("raster_size"), float(width_), float(height_));
     glUniform1i(program.at("has_texture"), has_texture_ ? 1 : 0);
     glUniform1i(program.at("colours"), 0);
@@ -162,12 +172,14 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform1f(program.at("line_px"), float(options.line_px));
 }
 
-void Drawing::draw_sky(const view::Camera& camera) const {
+void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) const {
+    view::Part part = part_of(camera, options);
     glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
-    double focal = view::focal_px(camera);
     sky_.use();
     glUniformMatrix3fv(sky_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
-    glUniform2f(sky_.at("tangents"), float(camera.width_px / (2 * focal)), float(camera.height_px / (2 * focal)));
+    glUniform1f(sky_.at("focal_px"), float(view::focal_px(camera)));
+    glUniform2f(sky_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
+    glUniform2f(sky_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
     glBindVertexArray(nothing_.id());
     glDepthMask(GL_FALSE);
     glDisable(GL_DEPTH_TEST);
@@ -208,7 +220,7 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glDisable(GL_CULL_FACE);
-    draw_sky(camera);
+    draw_sky(camera, options);
 
     GLint half_px = GLint(target.width_px() / 2);
     if (options.look == Look::split) {

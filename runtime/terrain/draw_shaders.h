@@ -16,6 +16,7 @@ uniform vec2 camera_rest;
 uniform vec2 metres_per_cell;                  // y negative: rows go down the raster
 uniform float camera_height_m;                 // above the terrain's base
 uniform mat4 clip_from_relative;
+uniform vec4 part;                             // of the picture: scale and shift of what is drawn
 uniform vec2 raster_size;
 out Surface {
     vec3 relative_m;
@@ -48,6 +49,7 @@ void main() {
     surface.place = (vec2(cell) + 0.5 + (surface.relative_m.xy - true_m.xy) / metres_per_cell) / raster_size;
     surface.height_m = height_m + surface.relative_m.z - true_m.z;
     gl_Position = clip_from_relative * vec4(surface.relative_m, 1.0);
+    gl_Position.xy = gl_Position.xy * part.xy + gl_Position.w * part.zw;
 }
 )";
 
@@ -156,24 +158,25 @@ void main() {
 )";
 
 inline constexpr char kSkyVertex[] = R"(#version 450 core
-uniform mat3 world_from_eye;
-uniform vec2 tangents;
-out vec3 direction;
 void main() {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    direction = world_from_eye * vec3(corner * tangents, -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);
 }
 )";
 
 inline constexpr char kSkyFragment[] = R"(
-in vec3 direction;
+uniform mat3 world_from_eye;
+uniform float focal_px;
+uniform vec2 middle_px;                        // of the picture
+uniform vec2 first_px;                         // of the part that is drawn: its lower left corner in the picture
 out vec4 colour;
 
 void main() {
+    vec2 at_px = gl_FragCoord.xy + first_px;
+    vec3 direction = world_from_eye * vec3((at_px - middle_px) / focal_px, -1.0);
     vec3 air = air_colour(normalize(direction).z);
     // Half a step of noise, the same in every frame, keeps the sky from showing bands.
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+    float noise = fract(52.9829189 * fract(dot(at_px, vec2(0.06711056, 0.00583715)))) - 0.5;
     colour = vec4(encoded(air) + noise / 255.0, 1.0);
 }
 )";

@@ -46,7 +46,8 @@ struct MethodSpec {
     bool operator==(const MethodSpec&) const = default;
 };
 
-// "terrain:hard@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
+// "terrain:hard@error-px=2@samples=4": the name of a run in all outputs. Every setting, the defaults too; of a method with more
+// than three settings error-px, samples and those that are not the defaults.
 std::string label_of(const MethodSpec& spec);
 
 // "terrain:hard": all runs of one curve share it.

@@ -10,6 +10,7 @@
 #include "formats/names.h"
 #include "runtime/lod_sprite/paper_visibility.h"
 #include "runtime/terrain/refine.h"
+#include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/terrain_method.h"
 
@@ -22,6 +23,22 @@ constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
 constexpr std::array<SettingKind, 3> kTerrainSettings = {kErrorPx, kSamples, kMorph};
 constexpr std::array<SettingKind, 2> kHardSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
+constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
+                                                         SettingKind{"low-error-px", 0.01, 1000, 16, false},
+                                                         SettingKind{"key-error-px", 0.01, 1000, 1, false},
+                                                         SettingKind{"key-scale", 1, 4, 2, true},
+                                                         SettingKind{"guard", 1, 3, 1.15, false},
+                                                         SettingKind{"slots", 2, 16, 4, true},
+                                                         SettingKind{"fade-frames", 0, 60, 8, true},
+                                                         SettingKind{"sliced", 0, 1, 1, true},
+                                                         SettingKind{"near", 0, 1, 1, true},
+                                                         SettingKind{"tolerance-px", 0.05, 10, 0.5, false},
+                                                         SettingKind{"look-ups", 1, 16, 4, true},
+                                                         SettingKind{"outlines", 0, 1, 1, true},
+                                                         SettingKind{"slab-test", 0, 1, 1, true},
+                                                         SettingKind{"place-test", 0, 1, 1, true},
+                                                         SettingKind{"sources", 0, 1, 0, true},
+                                                         kSamples};
 constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
     kErrorPx,
     SettingKind{"low-error-px", 0.01, 1000, 16, false},
@@ -31,9 +48,10 @@ constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
     SettingKind{"eye-depth", 0, 1, 0, true},
     SettingKind{"strips", 0, 1, 0, true},
     kSamples};
-constexpr std::array<MethodKind, 4> kKinds = {
+constexpr std::array<MethodKind, 5> kKinds = {
     MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
-    MethodKind{"lod-sprite", "paper", kSpritePaperSettings}, MethodKind{"full", "", kFullSettings}};
+    MethodKind{"lod-sprite", "", kSpriteSettings}, MethodKind{"lod-sprite", "paper", kSpritePaperSettings},
+    MethodKind{"full", "", kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -169,8 +187,15 @@ std::string family_of(const MethodSpec& spec) {
 }
 
 std::string label_of(const MethodSpec& spec) {
+    // Of a method with many settings those that are as they are anyway go without saying.
+    auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+                             [&](const MethodKind& one) { return one.name == spec.name && one.variant == spec.variant; });
+    bool says_all = kind == kKinds.end() || kind->settings.size() <= 3;
     std::string label = family_of(spec);
-    for (const auto& [name, value] : spec.settings) label += fmt::format("@{}={}", name, value);
+    for (const auto& [name, value] : spec.settings) {
+        bool is_usual = !says_all && kind->settings[place_of(*kind, name)].otherwise == value;
+        if (!is_usual || name == kErrorPx.name || name == kSamples.name) label += fmt::format("@{}={}", name, value);
+    }
     return label;
 }
 
@@ -220,6 +245,7 @@ double morph_of(const MethodSpec& spec) {
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
+    if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     assert(spec.name == "terrain");
     return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
 }

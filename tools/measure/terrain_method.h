@@ -13,6 +13,7 @@ namespace overlook::measure {
 std::unique_ptr<Method> make_terrain_method(World& world, double error_px, double morph);
 
 // Every triangle of the raster, whether in view or not.
+terrain::Cut full_cut(const World& world);
 std::unique_ptr<Method> make_full_method(World& world);
 
 }  // namespace overlook::measure
