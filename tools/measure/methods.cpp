@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "formats/names.h"
+#include "runtime/lod_sprite/paper_visibility.h"
 #include "runtime/terrain/refine.h"
 #include "tools/measure/lod_sprite_method.h"
+#include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -38,9 +40,19 @@ constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
                                                          SettingKind{"place-test", 0, 1, 1, true, true},
                                                          SettingKind{"sources", 0, 1, 0, true, true},
                                                          kSamples};
-constexpr std::array<MethodKind, 4> kKinds = {
-    MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"lod-sprite", "", kSpriteSettings},
-    MethodKind{"terrain", "hard", kHardSettings}, MethodKind{"full", "", kFullSettings}};
+constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
+    kErrorPx,
+    SettingKind{"low-error-px", 0.01, 1000, 16, false},
+    SettingKind{"key-error-px", 0.001, 1000, 1, false},
+    SettingKind{"drawn-plane", 0, 1, 0, true},
+    SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false},
+    SettingKind{"eye-depth", 0, 1, 0, true},
+    SettingKind{"strips", 0, 1, 0, true},
+    kSamples};
+constexpr std::array<MethodKind, 5> kKinds = {
+    MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
+    MethodKind{"lod-sprite", "", kSpriteSettings}, MethodKind{"lod-sprite", "paper", kSpritePaperSettings},
+    MethodKind{"full", "", kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -244,6 +256,7 @@ double morph_of(const MethodSpec& spec) {
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
+    if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     assert(spec.name == "terrain");
     return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));
