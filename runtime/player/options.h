@@ -27,7 +27,7 @@ struct Options {
     double error_px = 1;
     uint64_t triangles = 0;  // budgets of a frame, 0 = none; at most one of the two
     double frame_ms = 0;
-    double morph = 0.5;  // 0 = vertices pop; as Refiner::cut_by_pixels
+    double morph = terrain::kDefaultMorph;  // 0 = vertices pop; as Refiner::cut_by_pixels
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;

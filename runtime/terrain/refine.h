@@ -41,6 +41,9 @@ struct Cut {
     static constexpr uint32_t kMorphBit = 1u << 31;
 };
 
+// How far vertices morph (Refiner::cut_by_pixels) unless someone asks otherwise.
+inline constexpr double kDefaultMorph = 0.5;
+
 // Refines one terrain, which must outlive it, for any number of cameras. Making it costs O(samples) and keeps about 2.7 bytes a
 // sample: the heights round every split vertex. The cuts are the same for every thread count.
 class Refiner {

@@ -88,7 +88,7 @@ TEST_F(Measure, LeavesTablesPicturesAndAPage) {
     expect_done(ran);
     auto report = nlohmann::json::parse(ran.out);
     ASSERT_EQ(report["runs"].size(), 3u);
-    EXPECT_EQ(report["runs"][1]["run"], "terrain@error-px=16@samples=4");
+    EXPECT_EQ(report["runs"][1]["run"], "terrain@error-px=16@samples=4@morph=0.5");
     EXPECT_EQ(report["runs"][2]["run"], "full@samples=4");
     EXPECT_EQ(report["runs"][0]["frames"], 4);
     EXPECT_EQ(report["step_s"], 0.5);

@@ -143,6 +143,43 @@ TEST(MeasuredCourse, TakesEOnTheFirstAndEveryTenthFrame) {
     EXPECT_FALSE(course.runs[0].frames[0].numbers.w);
 }
 
+TEST(MeasuredCourse, TakesGOfWhatPromisesSomething) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain@error-px=4"}, {});
+    CourseResult course = hills.run(context->renderer());
+    const RunResult &run = course.runs[0], &floor = course.runs[1];
+    EXPECT_EQ(values_of(run, figure("g_max")).size(), kFrames);
+    EXPECT_GT(run.g.all().count, 100u);
+    EXPECT_TRUE(is_honest(run.g.all())) << run.g.all().ratio_max << " " << run.g.all().ratio_median;
+    EXPECT_LE(run.g.all().measured_max_px, 4);
+    EXPECT_EQ(floor.g.all().count, 0u);
+    EXPECT_TRUE(values_of(floor, figure("g_max")).empty());
+}
+
+TEST(MeasuredCourse, KeepsABudgetOfTriangles) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain@error-px=0.1", "terrain@error-px=0.1@triangles=1000"}, {});
+    CourseResult course = hills.run(context->renderer());
+    const RunResult &free = course.runs[0], &held = course.runs[1];
+    EXPECT_GT(percentiles_of(free, "triangles").max, 2000);
+    EXPECT_GT(held.frames.front().counters.triangle_count, 1000u);  // the first frame knows nothing of the next
+    EXPECT_LT(held.frames.back().counters.triangle_count, free.frames.back().counters.triangle_count / 2);
+    EXPECT_TRUE(is_honest(held.g.all())) << held.g.all().ratio_max;  // what it promises then, it keeps
+    expect_same(course, hills.run(context->renderer()));
+}
+
+TEST(MeasuredCourse, SeesABrokenPromiseOfTheFile) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"terrain@error-px=4"}, {});
+    for (size_t code = 1; code < terrain::kMustSplit; ++code) hills.world.terrain->error_m[code] *= 0.4f;
+    const RunResult run = hills.run(context->renderer()).runs[0];
+    EXPECT_GT(run.g.all().above_prediction, 0u);
+    std::vector<Gate> gates = gates_of(run);
+    auto gate = std::find_if(gates.begin(), gates.end(), [](const Gate& one) { return one.name == "g_max"; });
+    ASSERT_NE(gate, gates.end());
+    EXPECT_FALSE(gate->is_kept());
+}
+
 TEST(MeasuredCourse, ByTheWallClockHasTimesAlone) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills({"terrain"}, {});

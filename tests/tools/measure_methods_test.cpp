@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/terrain/refine.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -25,12 +27,13 @@ std::string refusal_of(const std::vector<std::string>& methods, const std::vecto
 using Strings = std::vector<std::string>;
 
 TEST(Methods, AreNamedWithEverySetting) {
-    EXPECT_EQ(labels_of({"terrain", "full", "terrain@samples=1@error-px=2.5"}, {}),
-              (Strings{"terrain@error-px=1@samples=4", "full@samples=4", "terrain@error-px=2.5@samples=1"}));
+    EXPECT_EQ(labels_of({"terrain", "full", "terrain@samples=1@error-px=2.5@morph=1"}, {}),
+              (Strings{"terrain@error-px=1@samples=4@morph=0.5", "full@samples=4", "terrain@error-px=2.5@samples=1@morph=1"}));
 }
 
 TEST(Methods, AreReadBackFromTheirLabels) {
-    for (const char* text : {"terrain@error-px=0.5@samples=1", "full@samples=2"}) {
+    for (const char* text :
+         {"terrain@error-px=0.5@samples=1@morph=0.25", "terrain:hard@error-px=2@samples=1", "full@samples=2"}) {
         Result<MethodSpec> spec = parse_method(text);
         ASSERT_TRUE(spec) << spec.error().message;
         EXPECT_EQ(label_of(*spec), text);
@@ -38,26 +41,45 @@ TEST(Methods, AreReadBackFromTheirLabels) {
 }
 
 TEST(Methods, HaveVariantsThatAreCurvesOfTheirOwn) {
-    EXPECT_EQ(labels_of({"terrain:morph@error-px=2", "terrain"}, {}),
-              (Strings{"terrain:morph@error-px=2@samples=4", "terrain@error-px=1@samples=4"}));
-    EXPECT_EQ(family_of(*parse_method("terrain:morph")), "terrain:morph");
+    EXPECT_EQ(labels_of({"terrain:hard@error-px=2", "terrain"}, {}),
+              (Strings{"terrain:hard@error-px=2@samples=4", "terrain@error-px=1@samples=4@morph=0.5"}));
+    EXPECT_EQ(family_of(*parse_method("terrain:hard")), "terrain:hard");
+}
+
+TEST(Methods, WithinABudgetAreACurveOfTheirOwn) {
+    EXPECT_EQ(labels_of({"terrain@triangles=20000", "terrain:hard@triangles=0"}, {}),
+              (Strings{"terrain@error-px=1@samples=4@morph=0.5@triangles=20000", "terrain:hard@error-px=1@samples=4"}));
+    EXPECT_EQ(family_of(*parse_method("terrain@triangles=20000")), "terrain@triangles");
+    EXPECT_EQ(family_of(*parse_method("terrain@triangles=0")), "terrain");
+    EXPECT_EQ(budget_of(*parse_method("terrain:hard@triangles=7")), 7);
+    EXPECT_EQ(budget_of(floor_spec(4)), 0);
+    EXPECT_EQ(labels_of({"terrain:hard@triangles=0", "terrain:hard@error-px=0.5"}, {"error-px=1", "triangles=10,20"}),
+              (Strings{"terrain:hard@error-px=1@samples=4", "terrain:hard@error-px=0.5@samples=4@triangles=10",
+                       "terrain:hard@error-px=0.5@samples=4@triangles=20"}));
+}
+
+TEST(Methods, MorphAsThePlayerDoesUnlessAskedOtherwise) {
+    EXPECT_EQ(morph_of(*parse_method("terrain")), terrain::kDefaultMorph);
+    EXPECT_EQ(morph_of(*parse_method("terrain@morph=0.75")), 0.75);
+    EXPECT_EQ(morph_of(*parse_method("terrain:hard")), 0);
 }
 
 TEST(Methods, SweepsMultiplyThoseThatHaveTheSetting) {
     EXPECT_EQ(labels_of({"terrain", "full"}, {"error-px=0.5,2"}),
-              (Strings{"terrain@error-px=0.5@samples=4", "terrain@error-px=2@samples=4", "full@samples=4"}));
+              (Strings{"terrain@error-px=0.5@samples=4@morph=0.5", "terrain@error-px=2@samples=4@morph=0.5", "full@samples=4"}));
     EXPECT_EQ(labels_of({"terrain"}, {"error-px=1,2", "samples=1,4"}),
-              (Strings{"terrain@error-px=1@samples=1", "terrain@error-px=1@samples=4", "terrain@error-px=2@samples=1",
-                       "terrain@error-px=2@samples=4"}));
+              (Strings{"terrain@error-px=1@samples=1@morph=0.5", "terrain@error-px=1@samples=4@morph=0.5",
+                       "terrain@error-px=2@samples=1@morph=0.5", "terrain@error-px=2@samples=4@morph=0.5"}));
 }
 
 TEST(Methods, SweepsLeaveAloneWhatWasGiven) {
     EXPECT_EQ(labels_of({"terrain@error-px=3", "terrain"}, {"error-px=1,2"}),
-              (Strings{"terrain@error-px=3@samples=4", "terrain@error-px=1@samples=4", "terrain@error-px=2@samples=4"}));
+              (Strings{"terrain@error-px=3@samples=4@morph=0.5", "terrain@error-px=1@samples=4@morph=0.5",
+                       "terrain@error-px=2@samples=4@morph=0.5"}));
 }
 
 TEST(Methods, AreMeasuredOnceHoweverOftenAskedFor) {
-    EXPECT_EQ(labels_of({"terrain", "terrain@error-px=1"}, {}), (Strings{"terrain@error-px=1@samples=4"}));
+    EXPECT_EQ(labels_of({"terrain", "terrain@error-px=1"}, {}), (Strings{"terrain@error-px=1@samples=4@morph=0.5"}));
 }
 
 TEST(Methods, OfAWrongNameAreRefusedWithTheNearest) {
@@ -66,6 +88,8 @@ TEST(Methods, OfAWrongNameAreRefusedWithTheNearest) {
     EXPECT_EQ(refusal_of({"xyzzyxyzzy"}, {}), "--method xyzzyxyzzy: there is no such method (known: terrain, full)");
     EXPECT_EQ(refusal_of({""}, {}).substr(0, 31), "--method : there is no such met");
     EXPECT_EQ(refusal_of({"terrain:soft"}, {}), "--method terrain:soft: terrain has no such variant");
+    EXPECT_EQ(refusal_of({"terrain:"}, {}), "--method terrain:: terrain has no such variant");
+    EXPECT_EQ(refusal_of({"terrain:hard@morph=1"}, {}), "--method terrain:hard@morph=1: terrain:hard has no setting morph");
     EXPECT_EQ(refusal_of({"terrain@eror-px=2"}, {}),
               "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?");
     EXPECT_EQ(refusal_of({"full@error-px=2"}, {}), "--method full@error-px=2: full has no setting error-px");
@@ -76,6 +100,7 @@ TEST(Methods, OfAWrongValueAreRefused) {
         std::string text = std::string("terrain@error-px=") + value;
         EXPECT_EQ(refusal_of({text}, {}), "--method " + text + ": error-px takes a number from 0.01 to 1000");
     }
+    EXPECT_EQ(refusal_of({"terrain@morph=1.5"}, {}), "--method terrain@morph=1.5: morph takes a number from 0 to 1");
     EXPECT_EQ(refusal_of({"full@samples=1.5"}, {}), "--method full@samples=1.5: samples takes a whole number from 1 to 8");
     EXPECT_EQ(refusal_of({"full@samples"}, {}), "--method full@samples: samples takes a whole number from 1 to 8");
     EXPECT_EQ(refusal_of({"full@samples=1@samples=2"}, {}), "--method full@samples=1@samples=2: samples is given twice");

@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/formats/schema_faults.h"
 #include "tests/formats/scratch_folder.h"
 #include "tools/measure/deliver.h"
 #include "tools/measure/figures.h"
@@ -43,6 +44,12 @@ RunResult run_of(const MethodSpec& spec, double base_ms, double e) {
         record.numbers.psnr_db = 40;
         record.numbers.luma_difference = 0.01;
         run.frames.push_back(record);
+    }
+    if (!is_floor(spec)) {
+        for (uint32_t frame : {0u, 9u}) {
+            std::vector<float> predicted_px = {0.5f, 1, 0}, measured_px = {0.25f, 0.75f, 0};
+            run.frames[frame].numbers.g = run.g.add(predicted_px, measured_px);
+        }
     }
     run.worst_e = worst_of(5, e + 0.005);
     run.worst_w = worst_of(3, e / 10);
@@ -101,7 +108,7 @@ TEST(FramesTable, HasARowForEveryFrameOfEveryRun) {
     auto rows = rows_of(frames_csv(a_course(), 0.5));
     ASSERT_EQ(rows.size(), 31u);
     for (const auto& row : rows) EXPECT_EQ(row.size(), 3 + figures().size());
-    EXPECT_EQ(cell(rows, 1, "run"), "terrain@error-px=1@samples=4");
+    EXPECT_EQ(cell(rows, 1, "run"), "terrain@error-px=1@samples=4@morph=0.5");
     EXPECT_EQ(cell(rows, 4, "frame"), "3");
     EXPECT_EQ(cell(rows, 4, "time_s"), "1.5");
     EXPECT_EQ(cell(rows, 4, "frame_ms"), "8");
@@ -117,7 +124,8 @@ TEST(FramesTable, LeavesEmptyWhatWasNotTaken) {
 }
 
 TEST(FramesTable, NamesTheUnitOfEveryNumberThatHasOne) {
-    static const std::regex kCounts("triangles|vertex_references|draw_calls|tested|events|luma_difference");
+    static const std::regex kCounts(
+        "triangles|vertex_references|draw_calls|tested|events|luma_difference|g_max|g_median|g_above");
     for (const Figure& one : figures()) {
         std::string name(one.name);
         bool has_unit = std::regex_search(name, std::regex("_(ms|px|bytes|db|luma|flip)$"));
@@ -134,55 +142,19 @@ TEST(RunsTable, HasWhatTheChartsDraw) {
     EXPECT_EQ(cell(rows, 3, "is_floor"), "1");
 }
 
-const Json& resolved(const Json& schema, const Json& part) {
-    return part.contains("$ref") ? schema.at(Json::json_pointer(part["$ref"].get<std::string>().substr(1))) : part;
-}
-
-bool is_of(const std::string& type, const Json& value) {
-    if (type == "object") return value.is_object();
-    if (type == "array") return value.is_array();
-    if (type == "string") return value.is_string();
-    if (type == "boolean") return value.is_boolean();
-    if (type == "integer") return value.is_number_integer();
-    return type == "null" ? value.is_null() : value.is_number();
-}
-
-// What of a value its schema does not allow; as much of JSON Schema as ours uses.
-void check(const Json& schema, const Json& reference, const Json& value, const std::string& place,
-           std::vector<std::string>& wrong) {
-    const Json& part = resolved(schema, reference);
-    const Json& type = part.at("type");
-    bool is_right = false;
-    for (const Json& one : type.is_array() ? type : Json::array({type})) is_right = is_right || is_of(one, value);
-    if (!is_right) return wrong.push_back(place + ": another type");
-    if (part.contains("const") && part["const"] != value) wrong.push_back(place + ": another value");
-    if (part.contains("enum") && !std::count(part["enum"].begin(), part["enum"].end(), value))
-        wrong.push_back(place + ": no such value");
-    if (value.is_array()) {
-        for (const Json& one : value) check(schema, part.at("items"), one, place + "[]", wrong);
-    }
-    if (!value.is_object()) return;
-    const Json none = Json::object();
-    const Json& properties = part.contains("properties") ? part["properties"] : none;
-    for (const Json& name : part.value("required", Json::array())) {
-        if (!value.contains(name)) wrong.push_back(place + ": lacks " + name.get<std::string>());
-    }
-    for (const auto& [name, member] : value.items()) {
-        if (properties.contains(name)) {
-            check(schema, properties[name], member, place + "/" + name, wrong);
-        } else if (part.at("additionalProperties").is_object()) {
-            check(schema, part["additionalProperties"], member, place + "/" + name, wrong);
-        } else {
-            wrong.push_back(place + ": has " + name);
-        }
-    }
+TEST(HonestyTable, HasARowForEveryStepOfWhatWasPromised) {
+    auto rows = rows_of(honesty_csv(a_course()));
+    ASSERT_EQ(rows.size(), 3u);  // half a pixel and one; of nothing promised there is no ratio
+    EXPECT_EQ(cell(rows, 1, "method"), "terrain");
+    EXPECT_EQ(cell(rows, 1, "things"), "4");  // two runs of two frames
+    EXPECT_NEAR(std::stod(cell(rows, 1, "promised_px")), 0.5, 0.1);
+    EXPECT_DOUBLE_EQ(std::stod(cell(rows, 1, "measured_p50_px")), 0.5 * std::stod(cell(rows, 1, "promised_px")));
+    EXPECT_EQ(cell(rows, 2, "worst_px"), "0.75");
+    EXPECT_EQ(cell(rows, 2, "worst_promised_px"), "1");
 }
 
 std::vector<std::string> faults_of(const Json& runs) {
-    Json schema = Json::parse(text_of_file(OVERLOOK_SOURCE_DIR "/samples/schema/runs.schema.json"));
-    std::vector<std::string> wrong;
-    check(schema, schema, runs, "", wrong);
-    return wrong;
+    return test::faults_of(runs, "runs.schema.json");
 }
 
 TEST(RunsJson, KeepsItsSchema) {
@@ -229,6 +201,35 @@ TEST(Gates, AreBrokenByAPopAHoleOrABrokenPromise) {
     EXPECT_EQ(broken(course.runs[0]), "predicted_error_px ");
 }
 
+TEST(Gates, AreBrokenByADishonestOrAnIdlePromise) {
+    auto broken = [](float predicted, float measured) {
+        RunResult run = a_course().runs[0];
+        for (int i = 0; i < 9; ++i) run.g.add(std::vector<float>{predicted}, std::vector<float>{measured});
+        std::string names;
+        for (const Gate& gate : gates_of(run)) names += gate.is_kept() ? "" : std::string(gate.name) + " ";
+        return names;
+    };
+    EXPECT_EQ(broken(1, 1), "");
+    EXPECT_EQ(broken(1, 1.001f), "g_max ");
+    EXPECT_EQ(broken(0, 0.001f), "g_max ");
+    EXPECT_EQ(broken(1, 0.2f), "g_median ");
+    EXPECT_EQ(gates_of(a_course().runs[2]).size(), 2u);  // the floor promises nothing
+}
+
+TEST(Gates, HoldABudgetOnceItHasSettled) {
+    RunResult run = run_of(*parse_method("terrain@triangles=1000"), 5, 0.2);
+    for (FrameRecord& frame : run.frames) frame.frame += 20;
+    run.frames[0].frame = 19;
+    run.frames[0].counters.triangle_count = 5000;
+    run.frames[0].counters.predicted_error_px = 7;
+    for (const Gate& gate : gates_of(run)) EXPECT_TRUE(gate.is_kept()) << gate.name;
+    run.frames[1].counters.triangle_count = 1051;
+    std::vector<Gate> gates = gates_of(run);
+    auto gate = std::find_if(gates.begin(), gates.end(), [](const Gate& one) { return one.name == "triangles"; });
+    ASSERT_NE(gate, gates.end());
+    EXPECT_FALSE(gate->is_kept());
+}
+
 TEST(Gates, AreAtTheFloorWithinTwoPercent) {
     CourseResult course = a_course();
     EXPECT_TRUE(is_at_floor(course.runs[2], course.runs[2]));
@@ -254,16 +255,31 @@ TEST(Sentences, NameTheCheapestAtTheFloorOrTheNearest) {
     CourseResult course = a_course();
     EXPECT_NE(chart_sentence("front_ms", course)
                   .find("None is at the floor (within 1.02 times its E); the nearest is "
-                        "terrain@error-px=1@samples=4 at 1.95 times."),
+                        "terrain@error-px=1@samples=4@morph=0.5 at 1.95 times."),
               std::string::npos)
         << chart_sentence("front_ms", course);
     course.runs[0] = run_of(course.runs[0].spec, 5, 0.1);
     course.runs[0].floor = 2;
     EXPECT_NE(chart_sentence("front_ms", course)
                   .find("The cheapest at the floor (within 1.02 times its E) is "
-                        "terrain@error-px=1@samples=4, for 0.167 of the floor's cost."),
+                        "terrain@error-px=1@samples=4@morph=0.5, for 0.167 of the floor's cost."),
               std::string::npos)
         << chart_sentence("front_ms", course);
+}
+
+TEST(Sentences, SayWhetherEveryPromiseIsKept) {
+    CourseResult course = a_course();
+    EXPECT_EQ(
+        chart_sentence("promise", course),
+        "Of 12 triangles in 4 frames of 2 runs, none lie farther from a source sample that they cover than was promised of "
+        "them; the greatest share of a promise used is 0.75 (terrain@error-px=1@samples=4). Nothing at all was promised of 4: "
+        "none of them are out of place. The median triangle uses 0.5, in terrain@error-px=1@samples=4 0.5; under 0.3 a "
+        "promise is called idle. Every promise is kept.");
+    course.runs[1].g.add(std::vector<float>{2}, std::vector<float>{3});
+    std::string text = chart_sentence("promise", course);
+    EXPECT_NE(text.find("1 lie farther"), std::string::npos) << text;
+    EXPECT_NE(text.find("used is 1.5 (terrain@error-px=4@samples=4)"), std::string::npos) << text;
+    EXPECT_NE(text.find("Not every promise is kept."), std::string::npos) << text;
 }
 
 std::set<std::string> links_of(const std::string& html) {

@@ -7,7 +7,7 @@
 #include "tests/tools/numbers_pictures.h"
 #include "tools/measure/numbers/frame_subset.h"
 #include "tools/measure/numbers/frame_times.h"
-#include "tools/measure/numbers/honesty.h"
+#include "tools/measure/numbers/honesty_tally.h"
 #include "tools/measure/numbers/image_reuse.h"
 #include "tools/measure/numbers/path_dependence.h"
 
@@ -121,6 +121,76 @@ TEST(Honesty, CallsWhatIsNoNumberDishonest) {
     float none = std::numeric_limits<float>::quiet_NaN();
     for (auto [predicted, measured] : {std::pair(none, 1.0f), {1.0f, none}, {0.0f, none}, {-1.0f, 1.0f}})
         EXPECT_FALSE(is_honest(honesty_of(std::vector<float>{predicted}, std::vector<float>{measured})));
+}
+
+TEST(FrameSubset, SpreadsFromTheFirstToTheLast) {
+    EXPECT_EQ(spread_frames(97, 4), (std::vector<uint32_t>{0, 32, 64, 96}));
+    EXPECT_EQ(spread_frames(3, 12), (std::vector<uint32_t>{0, 1, 2}));
+    EXPECT_EQ(spread_frames(1, 12), (std::vector<uint32_t>{0}));
+    EXPECT_EQ(spread_frames(0, 12).size(), 0u);
+    EXPECT_EQ(spread_frames(600, 12).back(), 599u);
+}
+
+// Many promises between 2^-12 and 2^12 pixels, every kind of ratio among them.
+void add_promises(uint64_t seed, std::vector<float>& predicted, std::vector<float>& measured) {
+    for (uint64_t i = 0; i < 4000; ++i) {
+        double share = double((i * 2654435761u + seed * 40503u) % 100003) / 100003;
+        predicted.push_back(i % 50 == 0 ? 0 : float(std::exp2(24 * share - 12)));
+        measured.push_back(predicted.back() * float(1.05 * share * share));
+    }
+}
+
+TEST(HonestyTally, SaysWhatHonestySaysOfAllAtOnce) {
+    std::vector<float> predicted, measured;
+    HonestyTally whole, halves, other;
+    for (uint64_t seed : {1, 2}) {
+        std::vector<float> predicted_here, measured_here;
+        add_promises(seed, predicted_here, measured_here);
+        Honesty here = whole.add(predicted_here, measured_here);
+        EXPECT_EQ(here.ratio_median, honesty_of(predicted_here, measured_here).ratio_median);
+        (seed == 1 ? halves : other).add(predicted_here, measured_here);
+        predicted.insert(predicted.end(), predicted_here.begin(), predicted_here.end());
+        measured.insert(measured.end(), measured_here.begin(), measured_here.end());
+    }
+    halves.add(other);
+    Honesty truth = honesty_of(predicted, measured);
+    ASSERT_GT(truth.above_prediction, 0u);
+    for (const HonestyTally* tally : {&whole, &halves}) {
+        EXPECT_EQ(tally->all().count, truth.count);
+        EXPECT_EQ(tally->all().above_prediction, truth.above_prediction);
+        EXPECT_EQ(tally->all().exact, truth.exact);
+        EXPECT_EQ(tally->all().ratio_max, truth.ratio_max);
+        EXPECT_EQ(tally->all().measured_max_px, truth.measured_max_px);
+        EXPECT_EQ(tally->all().predicted_max_px, truth.predicted_max_px);
+        EXPECT_LE(tally->all().ratio_median, truth.ratio_median);
+        EXPECT_GT(tally->all().ratio_median, truth.ratio_median - 1.0 / 1024);
+    }
+}
+
+TEST(HonestyTally, SortsByWhatWasPredicted) {
+    HonestyTally tally;
+    tally.add(std::vector<float>{1, 1, 1.1f, 3000, 0.0001f, 0}, std::vector<float>{0.5f, 0.25f, 1.65f, 300, 0, 0});
+    std::vector<HonestyBin> bins = tally.bins();
+    ASSERT_EQ(bins.size(), 3u);
+    EXPECT_EQ(bins[0].from_px, 0);
+    EXPECT_EQ(bins[0].count, 1u);
+    EXPECT_EQ(bins[1].from_px, 1);
+    EXPECT_NEAR(bins[1].to_px, std::exp2(0.25), 1e-12);
+    EXPECT_EQ(bins[1].count, 3u);
+    EXPECT_EQ(bins[1].ratio_median, 0.5);
+    EXPECT_NEAR(bins[1].ratio_p99, 1.5, 1e-6);
+    EXPECT_EQ(bins[1].worst_px, 1.65f);
+    EXPECT_EQ(bins[1].worst_promised_px, 1.1f);
+    EXPECT_TRUE(std::isinf(bins[2].to_px));
+}
+
+TEST(HonestyTally, CallsWhatIsNoNumberDishonest) {
+    float none = std::numeric_limits<float>::quiet_NaN();
+    for (auto [predicted, measured] : {std::pair(none, 1.0f), {1.0f, none}, {0.0f, none}, {-1.0f, 1.0f}}) {
+        HonestyTally tally;
+        tally.add(std::vector<float>{predicted}, std::vector<float>{measured});
+        EXPECT_FALSE(is_honest(tally.all()));
+    }
 }
 
 TEST(PathDependence, IsTheMeanOfGreyLevels) {

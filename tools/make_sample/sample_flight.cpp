@@ -132,6 +132,20 @@ Flight skim(const Map& map) {
     return flight;
 }
 
+// Four legs of two seconds with a leap between: over the ground northwards, over the same place looking down, southwards from it,
+// and towards it from the far corner.
+Flight opposites(const Map& map) {
+    const double leg_s = 2, last_s = leg_s - kStep_s;
+    return map.flight(Interpolation::linear, {{0, 0.5, 0.6, 90, 0, -3},
+                                              {last_s, 0.5, 0.58, 110, 0, -3},
+                                              {leg_s, 0.5, 0.6, 6000, 0, -85},
+                                              {leg_s + last_s, 0.51, 0.6, 6000, 20, -85},
+                                              {2 * leg_s, 0.5, 0.6, 90, 180, -3},
+                                              {2 * leg_s + last_s, 0.5, 0.62, 110, 180, -3},
+                                              {3 * leg_s, 0.95, 0.95, 1500, 315, -12},
+                                              {3 * leg_s + last_s, 0.9, 0.9, 1200, 315, -12}});
+}
+
 }  // namespace
 
 scene::Scene sample_scene() {
@@ -188,6 +202,8 @@ std::vector<std::pair<std::string, Flight>> suite_flights(const Landscape& lands
                                                       {length_s, 0.73, 0.25, 150, 170, -15}});
     lift(climb, map, clear_m);
     lift(steep, map, clear_m);
+    Flight four = opposites(map);
+    lift(four, map, clear_m);
     return {
         {"s01", straight(map, length_s, 64, 40, {0, 0.55, 0.74, 300, 40, -10}, clear_m)},
         {"s02", jitter(map)},
@@ -198,6 +214,7 @@ std::vector<std::pair<std::string, Flight>> suite_flights(const Landscape& lands
         {"s07", straight(map, length_s, 64, 45, {0, 0.35, 0.78, 30, 45, 0}, 30)},
         {"s08", climb},
         {"s11", steep},
+        {"s18", four},
     };
 }
 

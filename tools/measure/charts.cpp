@@ -81,7 +81,8 @@ Chart front(const CourseResult& course, const std::string& name, const std::stri
         ++place;
     }
     chart.script +=
-        "swept(run) = strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
+        "swept(run) = strstrt(run, '@triangles=') > 0 ? gprintf('%.0s%c', real(substr(run, strstrt(run, '@triangles=') + 11, "
+        "strlen(run)))) : strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
         "strstrt(run . '@samples', '@samples') - 1) . ' px'\n";
     chart.script += "plot " + lines + dots;
     chart.script += fmt::format(
@@ -155,21 +156,32 @@ Chart distribution(const CourseResult& course) {
     return chart;
 }
 
+// honesty.csv's columns: 1 method, 2 promised, 4 measured in the median, 6 and 7 the worst and what was promised of it. A curve
+// of worst things with dots, one of median things in dashes.
 Chart promise(const CourseResult& course) {
     Chart chart{"promise", "Promised against measured pixels", kHead};
     chart.script +=
-        "set xlabel 'promised of the frame: predicted error, pixels'\nset ylabel 'measured: outlines, greatest, pixels'\n";
-    chart.script += "set xrange [0:*]\nset yrange [0:*]\nset offsets graph 0.03, graph 0.05, graph 0.05, 0\n";
-    chart.script += "plot x + 1 with lines lc rgb \"#999999\" dt 2 title 'promise, and one pixel of the raster'";
-    for (size_t i = 0; i < course.runs.size(); ++i) {
-        if (is_floor(course.runs[i].spec)) continue;
-        const std::string& label = course.runs[i].label;
+        "set xlabel 'promised of a triangle, pixels'\nset ylabel 'measured of it, pixels'\nset logscale xy\n"
+        "set format x '%g'\nset format y '%g'\n";
+    chart.script += "plot x with lines lc rgb \"#000000\" dt 2 lw 1.5 title 'as much as was promised'";
+    size_t place = 0;
+    for (const std::string& family : families_of(course)) {
+        const char* colour = kColours[place % kColours.size()];
+        std::string of = fmt::format("(strcol(1) eq {} ? ", quoted(family));
         chart.script += fmt::format(
-            ", \\\n'../frames.csv' skip 1 using (strcol(1) eq {} ? ${} : NaN):{} with points pt 7 ps 0.6 {} title {}",
-            quoted(label), column_of("predicted_error_px"), column_of("s_max_px"), style_of(course, i, 1), quoted(label));
+            ", \\\n'../honesty.csv' skip 1 using {0}$7 : NaN):6 with linespoints pt {1} ps 0.6 lw 1.8 lc rgb \"{2}\" title {3}",
+            of, kPoints[place % kPoints.size()], colour, quoted(family + ": the worst triangle"));
+        chart.script +=
+            fmt::format(", \\\n'../honesty.csv' skip 1 using {0}$2 : NaN):4 with lines dt 3 lw 1.8 lc rgb \"{1}\" title {2}", of,
+                        colour, quoted(family + ": the median triangle"));
+        ++place;
     }
     chart.script += "\n";
     return chart;
+}
+
+bool has_honesty(const CourseResult& course) {
+    return std::any_of(course.runs.begin(), course.runs.end(), [](const RunResult& run) { return has_ratios(run.g.all()); });
 }
 
 }  // namespace
@@ -184,7 +196,7 @@ std::vector<Chart> charts_of(const CourseResult& course) {
     charts.push_back(over_flight(course));
     if (!has_pictures(course)) return charts;
     charts.push_back(distribution(course));
-    charts.push_back(promise(course));
+    if (has_honesty(course)) charts.push_back(promise(course));
     return charts;
 }
 

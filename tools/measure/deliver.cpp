@@ -51,6 +51,14 @@ void say_summary(const CourseResult& course, const RunSetup& setup, const std::s
                             short_count(percentiles_of(run, "triangles").p50));
         command::note(common, line);
     }
+    const TimeSpent& spent = course.spent;
+    if (spent.numbers_ms > 0) {
+        command::note(
+            common,
+            fmt::format("measure: {:.0f} s for references, {:.0f} s for methods, {:.0f} s for G, {:.0f} s for the other "
+                        "numbers",
+                        spent.references_ms / 1000, spent.methods_ms / 1000, spent.promises_ms / 1000, spent.numbers_ms / 1000));
+    }
     command::note(common, fmt::format("measure: by {}{}; the page: {}/index.html", setup.renderer.name,
                                       setup.renderer.is_software ? " (software)" : "", folder));
 }
@@ -60,8 +68,10 @@ void say_summary(const CourseResult& course, const RunSetup& setup, const std::s
 Result<void> deliver(const CourseResult& course, const RunSetup& setup, const std::string& folder,
                      const command::Common& common) {
     std::string json = runs_json(course, setup);
-    const std::pair<const char*, std::string> tables[] = {
-        {"frames.csv", frames_csv(course, setup.step_s)}, {"runs.csv", runs_csv(course)}, {"runs.json", json}};
+    const std::pair<const char*, std::string> tables[] = {{"frames.csv", frames_csv(course, setup.step_s)},
+                                                          {"runs.csv", runs_csv(course)},
+                                                          {"honesty.csv", honesty_csv(course)},
+                                                          {"runs.json", json}};
     for (const auto& [name, text] : tables) {
         if (Result<void> written = write_file(folder + "/" + name, std::string_view(text)); !written) return written;
     }

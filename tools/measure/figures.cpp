@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 
+#include "tools/measure/methods.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -12,8 +14,16 @@ using O = std::optional<double>;
 
 constexpr double kMostPopIndex = 1.2;
 constexpr double kAtFloor = 1.02;
+constexpr double kBudgetBand = 0.05;  // as S19 of the stability suite, and
+constexpr uint32_t kSettledFrames = 20;
 
-constexpr std::array<Figure, 19> kFigures = {{
+// Of G, where there is any.
+template <class Value>
+std::optional<double> of_g(R record, Value value) {
+    return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
+}
+
+constexpr std::array<Figure, 23> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -35,7 +45,22 @@ constexpr std::array<Figure, 19> kFigures = {{
     {"events", "sudden changes that the method knows of", [](R r) -> O { return double(r.counters.event_count); }, true},
     {"predicted_error_px", "what the method promises of this frame", [](R r) -> O { return r.counters.predicted_error_px; },
      true},
+    {"g_max", "measured over predicted displacement of a thing drawn, greatest",
+     [](R r) -> O { return of_g(r, [](const Honesty& g) { return g.ratio_max; }); }, true},
+    {"g_median", "the same, median", [](R r) -> O { return of_g(r, [](const Honesty& g) { return g.ratio_median; }); }, true},
+    {"g_above", "things displaced by more than predicted",
+     [](R r) -> O { return of_g(r, [](const Honesty& g) { return g.above_prediction; }); }, true},
+    {"g_measured_px", "greatest displacement measured",
+     [](R r) -> O { return of_g(r, [](const Honesty& g) { return g.measured_max_px; }); }, true},
 }};
+
+double settled_triangles(const RunResult& run) {
+    double most = 0;
+    for (const FrameRecord& frame : run.frames) {
+        if (frame.frame >= kSettledFrames) most = std::max(most, double(frame.counters.triangle_count));
+    }
+    return most;
+}
 
 }  // namespace
 
@@ -66,9 +91,14 @@ std::vector<Gate> gates_of(const RunResult& run) {
     if (values_of(run, figure("hole_px")).empty()) return gates;
     gates.push_back({"hole_px", percentiles_of(run, "hole_px").max, 0});
     gates.push_back({"pop_index", run.pop.index, kMostPopIndex});
+    double budget = budget_of(run.spec);
+    if (budget > 0) gates.push_back({"triangles", settled_triangles(run), (1 + kBudgetBand) * budget});
     for (const auto& [name, value] : run.spec.settings) {
-        if (name == "error-px") gates.push_back({"predicted_error_px", percentiles_of(run, "predicted_error_px").max, value});
+        if (name == "error-px" && budget == 0)
+            gates.push_back({"predicted_error_px", percentiles_of(run, "predicted_error_px").max, value});
     }
+    if (run.g.all().count > 0) gates.push_back({"g_max", run.g.all().ratio_max, 1});
+    if (has_ratios(run.g.all())) gates.push_back({"g_median", run.g.all().ratio_median, kIdleRatio, true});
     return gates;
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "runtime/gl/target.h"
 #include "runtime/view/camera.h"
+#include "tools/measure/numbers/honesty.h"
 
 namespace overlook::measure {
 
@@ -35,6 +37,9 @@ class Method {
     virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
     // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.
     virtual Counters draw(const gl::Target& target) = 0;
+    // Of the frame decided last, measured against the source; nothing of a method that promises nothing. Takes its time, which
+    // is nobody's frame's; the pictures after it are the same as without it.
+    virtual std::optional<Promises> promises() { return std::nullopt; }
 };
 
 // A method as it was asked for: "terrain@error-px=2@samples=4".
@@ -46,10 +51,11 @@ struct MethodSpec {
     bool operator==(const MethodSpec&) const = default;
 };
 
-// "terrain:variant@error-px=2@samples=4": every setting, the defaults too; the name of a run in all outputs.
+// "terrain:hard@error-px=2@samples=4": every setting, the defaults too (but for a budget of none); the name of a run in all
+// outputs.
 std::string label_of(const MethodSpec& spec);
 
-// "terrain:variant": all runs of one curve share it.
+// "terrain:hard", or "terrain@triangles" for runs within a budget: all runs of one curve share it.
 std::string family_of(const MethodSpec& spec);
 
 // The value of a setting that the method has.

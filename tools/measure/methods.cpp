@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "formats/names.h"
+#include "runtime/terrain/refine.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -15,12 +16,14 @@ namespace {
 
 constexpr SettingKind kErrorPx{"error-px", 0.01, 1000, 1, false};
 constexpr SettingKind kSamples{"samples", 1, 8, 4, true};
-constexpr std::array<SettingKind, 2> kTerrainSettings = {kErrorPx, kSamples};
+constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
+constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true};
+constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
+constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<std::string_view, 1> kTerrainVariants = {"morph"};
-constexpr double kMorph = 0.5;  // the player's default
-constexpr std::array<MethodKind, 2> kKinds = {MethodKind{"terrain", kTerrainVariants, kTerrainSettings},
-                                              MethodKind{"full", {}, kFullSettings}};
+constexpr std::array<MethodKind, 3> kKinds = {MethodKind{"terrain", "", kTerrainSettings},
+                                              MethodKind{"terrain", "hard", kHardSettings},
+                                              MethodKind{"full", "", kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -46,7 +49,9 @@ std::string suggestion(std::string_view word, const Kinds& kinds) {
 
 std::string known_names() {
     std::string names;
-    for (const MethodKind& kind : kKinds) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    for (const MethodKind& kind : kKinds) {
+        if (kind.variant.empty()) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    }
     return names;
 }
 
@@ -83,7 +88,7 @@ Result<void> take_setting(std::string_view text, std::string_view part, Asked& a
     std::string_view name = part.substr(0, part.find('='));
     size_t place = place_of(*asked.kind, name);
     if (place == asked.kind->settings.size()) {
-        return bad_command("--method {}: {} has no setting {}{}", text, asked.kind->name, name,
+        return bad_command("--method {}: {} has no setting {}{}", text, family_of(asked.spec), name,
                            suggestion(name, asked.kind->settings));
     }
     if (asked.is_given[place]) return bad_command("--method {}: {} is given twice", text, name);
@@ -99,17 +104,17 @@ Result<Asked> asked_from(std::string_view text) {
     std::vector<std::string_view> parts = split(text, '@');
     size_t colon = parts[0].find(':');
     std::string_view name = parts[0].substr(0, colon);
-    auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&](const MethodKind& known) { return known.name == name; });
-    if (kind == kKinds.end()) {
+    std::string_view variant = colon == std::string_view::npos ? "" : parts[0].substr(colon + 1);
+    auto has_name = [&](const MethodKind& known) { return known.name == name; };
+    if (std::none_of(kKinds.begin(), kKinds.end(), has_name)) {
         std::string near = suggestion(name, kKinds);
         return bad_command("--method {}: there is no such method{} (known: {})", text, near, known_names());
     }
-    Asked asked{&*kind, {std::string(name), "", {}}, std::vector<bool>(kind->settings.size())};
-    if (colon != std::string_view::npos) {
-        asked.spec.variant = parts[0].substr(colon + 1);
-        bool is_known = std::find(kind->variants.begin(), kind->variants.end(), asked.spec.variant) != kind->variants.end();
-        if (!is_known) return bad_command("--method {}: {} has no such variant", text, name);
-    }
+    auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+                             [&](const MethodKind& known) { return has_name(known) && known.variant == variant; });
+    bool names_nothing = colon != std::string_view::npos && variant.empty();
+    if (kind == kKinds.end() || names_nothing) return bad_command("--method {}: {} has no such variant", text, name);
+    Asked asked{&*kind, {std::string(name), std::string(variant), {}}, std::vector<bool>(kind->settings.size())};
     for (const SettingKind& known : kind->settings) asked.spec.settings.emplace_back(known.name, known.otherwise);
     for (size_t i = 1; i < parts.size(); ++i) {
         if (Result<void> taken = take_setting(text, parts[i], asked); !taken) return tl::unexpected(taken.error());
@@ -150,13 +155,24 @@ std::span<const MethodKind> method_kinds() {
 }
 
 std::string family_of(const MethodSpec& spec) {
-    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+    std::string family = spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+    return budget_of(spec) > 0 ? family + "@" + std::string(kTriangles.name) : family;
 }
 
 std::string label_of(const MethodSpec& spec) {
     std::string label = family_of(spec);
-    for (const auto& [name, value] : spec.settings) label += fmt::format("@{}={}", name, value);
+    for (const auto& [name, value] : spec.settings) {
+        bool is_no_budget = name == kTriangles.name && value == 0;
+        if (!is_no_budget) label += fmt::format("@{}={}", name, value);
+    }
     return label;
+}
+
+double budget_of(const MethodSpec& spec) {
+    for (const auto& [name, value] : spec.settings) {
+        if (name == kTriangles.name) return value;
+    }
+    return 0;
 }
 
 double setting(const MethodSpec& spec, const std::string& name) {
@@ -199,13 +215,13 @@ bool is_floor(const MethodSpec& spec) {
 }
 
 double morph_of(const MethodSpec& spec) {
-    return spec.variant == "morph" ? kMorph : 0;
+    return spec.variant == "hard" ? 0 : setting(spec, "morph");
 }
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     assert(spec.name == "terrain");
-    return make_terrain_method(world, setting(spec, "error-px"), morph_of(spec));
+    return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));
 }
 
 }  // namespace overlook::measure

@@ -19,16 +19,16 @@ struct SettingKind {
     bool is_whole = false;
 };
 struct MethodKind {
-    std::string_view name;
-    std::span<const std::string_view> variants;  // besides the default one
+    std::string_view name, variant;  // "" = the default one
     std::span<const SettingKind> settings;
 };
-std::span<const MethodKind> method_kinds();
+std::span<const MethodKind> method_kinds();  // the default variant of each method before its others
 
 // Reads "NAME[:variant][@setting=value]...". Fails with Exit::bad_command:
 //   "--method terain: there is no such method; did you mean terrain? (known: terrain, full)"
 //   "--method terrain:soft: terrain has no such variant"
 //   "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?"
+//   "--method terrain:hard@morph=1: terrain:hard has no setting morph"
 //   "--method terrain@error-px=x: error-px takes a number from 0.01 to 1000"
 Result<MethodSpec> parse_method(std::string_view text);
 
@@ -42,8 +42,11 @@ Result<std::vector<MethodSpec>> specs_from(const std::vector<std::string>& metho
 MethodSpec floor_spec(double samples);
 bool is_floor(const MethodSpec& spec);
 
-// How far a terrain's vertices morph (Refiner::cut_by_pixels): 0, of the variant "morph" the player's 0.5.
+// How far a terrain's vertices morph (Refiner::cut_by_pixels): 0 of the variant "hard", whose vertices pop.
 double morph_of(const MethodSpec& spec);
+
+// Triangles that a frame may have, 0 = as many as its error takes.
+double budget_of(const MethodSpec& spec);
 
 // The spec must come from above; the world must outlive the method.
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world);

@@ -68,8 +68,9 @@ void add_options(CLI::App& app, Options& options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--size", options.size, "Size of the pictures in pixels")->type_name("WxH")->capture_default_str();
     app.add_option("--method", options.methods,
-                   "NAME[:variant][@setting=value]...: terrain or terrain:morph (settings error-px, samples), full (samples); "
-                   "may be repeated")
+                   "NAME[:variant][@setting=value]...: terrain (settings error-px, samples, triangles, morph), terrain:hard, "
+                   "whose levels pop "
+                   "(error-px, samples), full (samples); may be repeated")
         ->type_name("METHOD")
         ->required()
         ->expected(1)

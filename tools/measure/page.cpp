@@ -22,6 +22,13 @@ std::string row(const std::string& name, const std::string& value) {
     return "<tr><th scope=\"row\">" + name + "</th><td>" + value + "</td></tr>\n";
 }
 
+// On how many frames G was taken of the runs that have any.
+size_t honesty_frames(const CourseResult& course) {
+    size_t most = 0;
+    for (const RunResult& run : course.runs) most = std::max(most, values_of(run, figure("g_max")).size());
+    return most;
+}
+
 std::string what_was_run(const PageInput& input) {
     const RunSetup& setup = input.setup;
     size_t frames = input.course.runs.front().frames.size();
@@ -38,6 +45,9 @@ std::string what_was_run(const PageInput& input) {
         html += row("Reference", fmt::format("full geometry, {0} x {0} supersampled, averaged in linear light", kSupersampling));
         html += row("E", fmt::format("LDR-FLIP, {} pixels per degree, on {} of the frames", kPixelsPerDegree,
                                      values_of(input.course.runs.front(), figure("e_p99_flip")).size()));
+    }
+    if (size_t judged = honesty_frames(input.course); judged > 0) {
+        html += row("G", fmt::format("every triangle drawn, at every source sample that it covers, on {} of the frames", judged));
     }
     html += row("Overlook", escaped(setup.version)) + "</table>\n";
     if (setup.renderer.is_software) {
@@ -67,18 +77,22 @@ std::string cells_of(const RunResult& run) {
     } else {
         html += cell(short_number(times_ms.p99)) + cell(short_number(times_ms.p50));
     }
-    return html + cell(short_count(percentiles_of(run, "triangles").p50)) +
-           cell(short_bytes(percentiles_of(run, "uploaded_bytes").p50)) +
-           cell(short_bytes(percentiles_of(run, "resident_bytes").max)) +
-           cell(short_number(percentiles_of(run, "predicted_error_px").max));
+    html += cell(short_count(percentiles_of(run, "triangles").p50)) +
+            cell(short_bytes(percentiles_of(run, "uploaded_bytes").p50)) +
+            cell(short_bytes(percentiles_of(run, "resident_bytes").max)) +
+            cell(short_number(percentiles_of(run, "predicted_error_px").max));
+    if (!run.worst_e.is_there) return html;
+    const Honesty& g = run.g.all();
+    if (g.count == 0) return html + cell("") + cell("") + cell("");
+    return html + cell(short_number(g.measured_max_px)) + cell(short_number(g.ratio_max)) + cell(short_number(g.ratio_median));
 }
 
 std::string gates_text(const RunResult& run) {
     std::string text;
     for (const Gate& gate : gates_of(run)) {
         if (gate.is_kept()) continue;
-        text += (text.empty() ? "" : "; ") +
-                fmt::format("{} {} &gt; {}", gate.name, short_number(gate.value), short_number(gate.limit));
+        text += (text.empty() ? "" : "; ") + fmt::format("{} {} {} {}", gate.name, short_number(gate.value),
+                                                         gate.is_least ? "&lt;" : "&gt;", short_number(gate.limit));
     }
     if (gates_of(run).empty()) return "not judged";
     return text.empty() ? "kept" : "<strong class=\"broken\">" + text + "</strong>";
@@ -90,7 +104,9 @@ std::string table_of_runs(const PageInput& input) {
     if (has_pictures) html += "<th>E p99</th><th>W p99</th><th>pop index</th>";
     html += "<th>ms p99</th><th>ms p50</th>";
     if (has_pictures) html += "<th>holes px</th><th>outline px, max</th>";
-    html += "<th>triangles p50</th><th>uploaded p50</th><th>held</th><th>promised px</th><th>gates</th></tr></thead>\n<tbody>\n";
+    html += "<th>triangles p50</th><th>uploaded p50</th><th>held</th><th>promised px</th>";
+    if (has_pictures) html += "<th>measured px</th><th>G max</th><th>G median</th>";
+    html += "<th>gates</th></tr></thead>\n<tbody>\n";
     for (const RunResult& run : input.course.runs) {
         html += fmt::format("<tr{}><th scope=\"row\">{}</th>{}<td>{}</td></tr>\n", is_floor(run.spec) ? " class=\"floor\"" : "",
                             name_of(run), cells_of(run), gates_text(run));

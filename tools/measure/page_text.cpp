@@ -106,18 +106,33 @@ std::string distribution_text(const CourseResult& course) {
 }
 
 std::string promise_text(const CourseResult& course) {
-    uint64_t above = 0, frames = 0;
-    for (const RunResult* run : methods_of(course)) {
-        for (const FrameRecord& frame : run->frames) {
-            ++frames;
-            if (frame.numbers.s_max_px.value_or(0) > frame.counters.predicted_error_px + 1) ++above;
-        }
+    std::vector<const RunResult*> runs;
+    HonestyTally all;
+    size_t frames = 0;
+    for (const RunResult& run : course.runs) {
+        if (!has_ratios(run.g.all())) continue;
+        runs.push_back(&run);
+        all.add(run.g);
+        frames += values_of(run, figure("g_max")).size();
     }
-    return fmt::format(
-        "Each dot is a frame: across, what the method promised; up, how far the outline against the sky is from the reference's "
-        "at "
-        "its worst pixel. {} of {} frames stand above the line.",
-        above == 0 ? "None" : short_count(double(above)), short_count(double(frames)));
+    const RunResult& worst = with_most(runs, [](const RunResult& run) { return run.g.all().ratio_max; });
+    const RunResult& idlest = with_most(runs, [](const RunResult& run) { return -run.g.all().ratio_median; });
+    const Honesty& g = all.all();
+    std::string text = fmt::format(
+        "Of {} triangles in {} frames of {} runs, {} lie farther from a source sample that they cover than was promised of them; "
+        "the "
+        "greatest share of a promise used is {} ({}).",
+        short_count(double(g.count)), frames, runs.size(),
+        g.above_prediction == 0 ? "none" : short_count(double(g.above_prediction)), short_number(g.ratio_max), worst.label);
+    if (g.exact + g.broken_zeros > 0) {
+        text += fmt::format(" Nothing at all was promised of {}: {} of them are out of place.",
+                            short_count(double(g.exact + g.broken_zeros)),
+                            g.broken_zeros == 0 ? "none" : short_count(double(g.broken_zeros)));
+    }
+    text += fmt::format(" The median triangle uses {}, in {} {}; under {} a promise is called idle.",
+                        short_number(g.ratio_median), idlest.label, short_number(idlest.g.all().ratio_median), kIdleRatio);
+    bool is_kept = std::all_of(runs.begin(), runs.end(), [](const RunResult* run) { return is_honest(run->g.all()); });
+    return text + (is_kept ? " Every promise is kept." : " Not every promise is kept.");
 }
 
 }  // namespace

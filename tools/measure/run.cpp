@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <set>
 
 #include "runtime/gl/timer.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/numbers/frame_subset.h"
 
 namespace overlook::measure {
 namespace {
@@ -50,6 +52,13 @@ class Field {
         record.counters = running.method->draw(*running.target);
         record.draw_ms = drawing.finished_ms();
         return record;
+    }
+
+    // Measures what the frame that draw() left promises of each thing in it.
+    void take_g(size_t run) {
+        std::optional<Promises> promises = runs[run].method->promises();
+        if (!promises) return;
+        results[run].frames.back().numbers.g = results[run].g.add(promises->predicted_px, promises->measured_px);
     }
 
     // Takes the picture that draw() left.
@@ -163,21 +172,34 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
     if (!field) return tl::unexpected(field.error());
     find_floors(field->results);
 
+    std::vector<uint32_t> g_chosen = spread_frames(uint32_t(course.cameras.size()), kMostHonestyFrames);
+    std::set<uint32_t> g_frames(g_chosen.begin(), g_chosen.end());
     Judge judge;
+    TimeSpent spent;
     for (uint32_t frame = 0; frame < course.cameras.size(); ++frame) {
         const view::Camera& camera = course.cameras[frame];
+        gl::Timer referring;
         Result<Frame> truth = reference->frame(camera);
         if (!truth) return tl::unexpected(truth.error());
+        spent.references_ms += referring.elapsed_ms();
         for (size_t i = 0; i < course.specs.size(); ++i) {
             size_t run = (frame + i) % course.specs.size();
+            gl::Timer flying;
             field->results[run].frames.push_back(field->draw(run, camera, frame));
             field->capture(run, camera);
+            spent.methods_ms += flying.elapsed_ms();
+            gl::Timer promising;
+            if (g_frames.contains(frame)) field->take_g(run);
+            spent.promises_ms += promising.elapsed_ms();
         }
+        gl::Timer judging;
         judge.judge(*field, frame, std::move(*truth));
+        spent.numbers_ms += judging.elapsed_ms();
         done(double(frame + 1) / double(course.cameras.size()));
     }
     take_pop_indices(*field);
-    return CourseResult{std::move(field->results), reference->drawn_count(), reference->kept_count(), reference->damaged_count()};
+    return CourseResult{std::move(field->results), reference->drawn_count(), reference->kept_count(), reference->damaged_count(),
+                        spent};
 }
 
 Result<CourseResult> run_by_wall_clock(World& world, const Course& course, const std::function<void(double)>& done) {
@@ -193,7 +215,7 @@ Result<CourseResult> run_by_wall_clock(World& world, const Course& course, const
         }
         done(double(run + 1) / double(course.specs.size()));
     }
-    return CourseResult{std::move(field->results), 0, 0, 0};
+    return CourseResult{std::move(field->results), 0, 0, 0, {}};
 }
 
 }  // namespace overlook::measure

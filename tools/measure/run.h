@@ -9,6 +9,7 @@
 
 #include "formats/image.h"
 #include "tools/measure/method.h"
+#include "tools/measure/numbers/honesty_tally.h"
 #include "tools/measure/numbers/temporal.h"
 #include "tools/measure/reference.h"
 #include "tools/measure/world.h"
@@ -22,6 +23,9 @@ struct Course {
     double step_s = 1.0 / 60;           // of the logical clock, from frame to frame
 };
 
+// G is taken on at most so many frames, evenly spread from the first to the last: each looks at every sample in view.
+constexpr uint32_t kMostHonestyFrames = 12;
+
 // What a frame was beside the reference. Empty where it was not taken.
 struct Numbers {
     std::optional<double> e_p99, e_mean;  // LDR-FLIP over the pixels: every tenth frame and round events
@@ -29,6 +33,7 @@ struct Numbers {
     std::optional<double> s_p95_px, s_max_px;
     std::optional<double> hole_count;
     std::optional<double> psnr_db, luma_difference;
+    std::optional<Honesty> g;  // of the things drawn: on a few frames, of methods that promise something of each
 };
 
 struct FrameRecord {
@@ -56,12 +61,19 @@ struct RunResult {
     size_t floor = 0;  // which run is its floor: full geometry at the same samples a pixel
     std::vector<FrameRecord> frames;
     PopIndex pop;
+    HonestyTally g;  // over all frames on which it was taken
     WorstFrame worst_e, worst_w;
+};
+
+// Where the time of a run went; of no interest but to who waits for it.
+struct TimeSpent {
+    double references_ms = 0, methods_ms = 0, promises_ms = 0, numbers_ms = 0;
 };
 
 struct CourseResult {
     std::vector<RunResult> runs;  // as in Course::specs
     uint64_t references_drawn = 0, references_kept = 0, references_damaged = 0;
+    TimeSpent spent;
 };
 
 // Adds to specs the floor of each that has none yet.

@@ -35,7 +35,8 @@ constexpr Member kGateMembers[] = {
 constexpr Member kSettingMembers[] = {
     {"drop_every", Kind::number, false, 2, 1000}, {"world_moves_m", Kind::array, false, 1, 8},
     {"resize_shares", Kind::array, false, 1, 8},  {"budget_share", Kind::number, false, 0.01, 1},
-    {"goes_backwards", Kind::boolean, false},     {"changed_pixel", Kind::number, false, 0, 1},
+    {"cameras", Kind::number, false, 2, 16},      {"goes_backwards", Kind::boolean, false},
+    {"changed_pixel", Kind::number, false, 0, 1},
 };
 
 constexpr std::string_view kFigures[] = {
@@ -108,6 +109,9 @@ CaseSettings read_settings(Form& form, const Node& node) {
     double drop_every = form.number(node, "drop_every", 0);
     if (drop_every != std::floor(drop_every)) form.fail(form.member(node, "drop_every"), "is no whole number");
     settings.drop_every = uint32_t(drop_every);
+    double cameras = form.number(node, "cameras", 1);
+    if (cameras != std::floor(cameras)) form.fail(form.member(node, "cameras"), "is no whole number");
+    settings.cameras = uint32_t(cameras);
     settings.world_moves_m = read_numbers(form, form.member(node, "world_moves_m"), 0, 1e8);
     settings.resize_shares = read_numbers(form, form.member(node, "resize_shares"), 0.01, 4);
     settings.budget_share = form.number(node, "budget_share", 1);

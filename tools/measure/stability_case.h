@@ -32,11 +32,12 @@ struct CaseGate {
 
 // What happens during the run besides the flight.
 struct CaseSettings {
-    uint32_t drop_every = 0;              // every n-th frame is not drawn; 0 = none
-    std::vector<double> world_moves_m;    // the whole run again with world and cameras moved by so much along x and y
-    std::vector<double> resize_shares;    // at equally spaced frames the picture's size becomes this share of the first size
-    double budget_share = 1;              // from the middle frame on the triangle budget is this share
-    bool goes_backwards = false;          // the frames again, in reverse order
+    uint32_t drop_every = 0;            // every n-th frame is not drawn; 0 = none
+    std::vector<double> world_moves_m;  // the whole run again with world and cameras moved by so much along x and y
+    std::vector<double> resize_shares;  // at equally spaced frames the picture's size becomes this share of the first size
+    double budget_share = 1;            // from the middle frame on the triangle budget is this share
+    uint32_t cameras = 1;               // the flight in so many equally long legs, each flown by a camera of its own, all at once
+    bool goes_backwards = false;        // the frames again, in reverse order
     std::optional<double> changed_pixel;  // by how much a pixel must change to count, 0..1
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tools/measure/figures.h"
@@ -34,6 +35,19 @@ Json json_of(const PopIndex& pop) {
             {"median_w_luma", pop.method_median}};
 }
 
+Json json_of(const Honesty& honesty, size_t frames) {
+    return {{"frames", frames},
+            {"things", honesty.count},
+            {"above_prediction", honesty.above_prediction},
+            {"broken_zeros", honesty.broken_zeros},
+            {"exact", honesty.exact},
+            {"ratio_max", honesty.ratio_max},
+            {"ratio_median", honesty.ratio_median},
+            {"measured_max_px", honesty.measured_max_px},
+            {"predicted_max_px", honesty.predicted_max_px},
+            {"is_kept", is_honest(honesty)}};
+}
+
 Json summary_of(const RunResult& run) {
     Json summary = Json::object();
     for (const Figure& one : figures()) {
@@ -59,10 +73,15 @@ Json json_of(const RunResult& run, const std::vector<RunResult>& runs) {
     json["missed_deadlines"] = {{"16.7_ms", json_of(times.missed_60)}, {"33.3_ms", json_of(times.missed_30)}};
     json["gates"] = Json::array();
     for (const Gate& gate : gates_of(run)) {
-        json["gates"].push_back({{"name", gate.name}, {"value", gate.value}, {"limit", gate.limit}, {"is_kept", gate.is_kept()}});
+        json["gates"].push_back({{"name", gate.name},
+                                 {"value", gate.value},
+                                 {"limit", gate.limit},
+                                 {"is_least", gate.is_least},
+                                 {"is_kept", gate.is_kept()}});
     }
     if (!run.worst_e.is_there) return json;
     json["pop"] = json_of(run.pop);
+    if (run.g.all().count > 0) json["honesty"] = json_of(run.g.all(), values_of(run, figure("g_max")).size());
     json["is_at_floor"] = is_at_floor(run, runs[run.floor]);
     return json;
 }
@@ -105,6 +124,23 @@ std::string runs_csv(const CourseResult& course) {
                            percentiles_of(run, "e_p99_flip").p99, percentiles_of(run, "w_luma").p99, run.pop.index, times_ms.p50,
                            times_ms.p99, percentiles_of(run, "triangles").p50, percentiles_of(run, "resident_bytes").max,
                            percentiles_of(run, "predicted_error_px").max);
+    }
+    return csv;
+}
+
+std::string honesty_csv(const CourseResult& course) {
+    std::map<std::string, HonestyTally> curves;
+    for (const RunResult& run : course.runs) {
+        if (run.g.all().count > 0) curves[family_of(run.spec)].add(run.g);
+    }
+    std::string csv = "method,promised_px,things,measured_p50_px,measured_p99_px,worst_px,worst_promised_px\n";
+    for (const auto& [family, tally] : curves) {
+        for (const HonestyBin& bin : tally.bins()) {
+            if (!std::isfinite(bin.to_px) || bin.from_px == 0) continue;
+            double middle_px = std::sqrt(bin.from_px * bin.to_px);
+            csv += fmt::format("{},{},{},{},{},{},{}\n", family, middle_px, bin.count, bin.ratio_median * middle_px,
+                               bin.ratio_p99 * middle_px, bin.worst_px, bin.worst_promised_px);
+        }
     }
     return csv;
 }

@@ -30,6 +30,9 @@ std::string processor_name();
 std::string frames_csv(const CourseResult& course, double step_s);
 // runs.csv: a row per run with the medians and 99th percentiles that the charts draw.
 std::string runs_csv(const CourseResult& course);
+// honesty.csv: a row per curve (all runs of a method and variant) and step of what was promised: how many things, and the
+// measured displacement of the median one, of the 99th percentile and of the one that comes worst off against its promise.
+std::string honesty_csv(const CourseResult& course);
 // runs.json: schema samples/schema/runs.schema.json.
 std::string runs_json(const CourseResult& course, const RunSetup& setup);
 

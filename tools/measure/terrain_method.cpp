@@ -1,5 +1,7 @@
 #include "tools/measure/terrain_method.h"
 
+#include "tools/measure/honesty/terrain_honesty.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -21,17 +23,28 @@ Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cu
 
 class Refined : public Method {
   public:
-    Refined(World& world, double error_px, double morph) : world_(world), error_px_(error_px), morph_(morph) {}
+    Refined(World& world, const view::ErrorBudget& budget, double morph) : world_(world), controller_(budget), morph_(morph) {}
 
     void decide(const view::Camera& camera, uint32_t) override {
         camera_ = camera;
+        error_px_ = controller_.error_px();
         world_.refiner->cut_by_pixels(camera, error_px_, cut_, morph_);
+        controller_.frame_done(double(cut_.triangle_count()));
     }
     Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
+    // The same cut again, with what it is worth: the frames that are timed do without.
+    std::optional<Promises> promises() override {
+        terrain::Cut cut;
+        cut.wants_codes = true;
+        world_.refiner->cut_by_pixels(camera_, error_px_, cut, morph_);
+        return promises_of(*world_.terrain, cut, camera_, error_px_);
+    }
 
   private:
     World& world_;
-    double error_px_, morph_;
+    view::ErrorController controller_;
+    double morph_;
+    double error_px_ = 0;  // of the frame decided last
     view::Camera camera_;
     terrain::Cut cut_;
 };
@@ -55,8 +68,8 @@ class Full : public Method {
 
 }  // namespace
 
-std::unique_ptr<Method> make_terrain_method(World& world, double error_px, double morph) {
-    return std::make_unique<Refined>(world, error_px, morph);
+std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudget& budget, double morph) {
+    return std::make_unique<Refined>(world, budget, morph);
 }
 
 std::unique_ptr<Method> make_full_method(World& world) {

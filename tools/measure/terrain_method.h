@@ -3,14 +3,16 @@
 
 #include <memory>
 
+#include "runtime/view/error_budget.h"
 #include "tools/measure/method.h"
 #include "tools/measure/world.h"
 
 namespace overlook::measure {
 
-// The coarsest cut whose bound stays under error_px (runtime/terrain/refine.h). morph: as Refiner::cut_by_pixels takes it, 0 =
+// The coarsest cut whose bound stays under budget.least_error_px (runtime/terrain/refine.h), or, as the player's --triangles,
+// under the error that the frames before leave room for in budget.cost triangles. morph: as Refiner::cut_by_pixels takes it, 0 =
 // hard switching.
-std::unique_ptr<Method> make_terrain_method(World& world, double error_px, double morph);
+std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudget& budget, double morph);
 
 // Every triangle of the raster, whether in view or not.
 std::unique_ptr<Method> make_full_method(World& world);

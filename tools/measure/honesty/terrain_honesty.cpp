@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "formats/parallel.h"
+#include "runtime/terrain/predict.h"
 
 namespace overlook::measure {
 namespace {
@@ -55,15 +56,25 @@ class Eye {
     double focal_px_, half_x_, half_y_;
 };
 
-double displacement_px(const Eye& eye, const terrain::Terrain& terrain, uint32_t column, uint32_t row, double drawn_z) {
-    double east_m = column * terrain.frame.metres_per_column, north_m = -(row * terrain.frame.metres_per_row);
-    Screen truth = eye.project({east_m, north_m, terrain.height_m(column, row)}), drawn = eye.project({east_m, north_m, drawn_z});
+// Of one sample at a height that may be the source's.
+double displacement_px(const Eye& eye, double east_m, double north_m, double source_z, double drawn_z) {
+    Screen truth = eye.project({east_m, north_m, source_z}), drawn = eye.project({east_m, north_m, drawn_z});
     if (!eye.is_in_frame(truth) && !eye.is_in_frame(drawn)) return kNotSeen;
     if (truth.depth_m <= 0 || drawn.depth_m <= 0) return std::numeric_limits<double>::infinity();
     return std::hypot(truth.x_px - drawn.x_px, truth.y_px - drawn.y_px);
 }
 
-double triangle_px(const Eye& eye, const terrain::Terrain& terrain, const std::array<Corner, 3>& p) {
+// Seen along a vertical, one end of the heights that may be the source's is the farthest.
+double sample_px(const Eye& eye, const terrain::Terrain& terrain, uint32_t column, uint32_t row, double drawn_z,
+                 double unsure_m) {
+    double east_m = column * terrain.frame.metres_per_column, north_m = -(row * terrain.frame.metres_per_row);
+    double stored_z = terrain.height_m(column, row);
+    double lower_px = displacement_px(eye, east_m, north_m, stored_z - unsure_m, drawn_z);
+    if (unsure_m == 0) return lower_px;
+    return std::max(lower_px, displacement_px(eye, east_m, north_m, stored_z + unsure_m, drawn_z));
+}
+
+double triangle_px(const Eye& eye, const terrain::Terrain& terrain, const std::array<Corner, 3>& p, double unsure_m) {
     auto turn = [](const Corner& a, const Corner& b, int64_t x, int64_t y) {
         return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
     };
@@ -75,7 +86,7 @@ double triangle_px(const Eye& eye, const terrain::Terrain& terrain, const std::a
                     c = sign * turn(p[0], p[1], column, row);
             if (a < 0 || b < 0 || c < 0) continue;
             double z = (double(a) * p[0].z + double(b) * p[1].z + double(c) * p[2].z) / double(sign * area);
-            greatest = std::max(greatest, displacement_px(eye, terrain, uint32_t(column), uint32_t(row), z));
+            greatest = std::max(greatest, sample_px(eye, terrain, uint32_t(column), uint32_t(row), z, unsure_m));
         }
     return greatest;
 }
@@ -83,23 +94,29 @@ double triangle_px(const Eye& eye, const terrain::Terrain& terrain, const std::a
 }  // namespace
 
 void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera,
-                       std::vector<float>& measured_px) {
+                       std::vector<float>& measured_px, double unsure_m) {
     Eye eye(camera);
     measured_px.resize(cut.triangle_count());
     parallel_ranges(measured_px.size(), kTrianglesAtATime, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
             measured_px[i] = float(triangle_px(
                 eye, terrain,
-                {corner_of(terrain, cut, 3 * i), corner_of(terrain, cut, 3 * i + 1), corner_of(terrain, cut, 3 * i + 2)}));
+                {corner_of(terrain, cut, 3 * i), corner_of(terrain, cut, 3 * i + 1), corner_of(terrain, cut, 3 * i + 2)},
+                unsure_m));
     });
 }
 
-void PromiseTally::add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px) {
-    for (size_t i = 0; i < predicted_of_cut_px.size(); ++i) {
-        if (double(measured_of_cut_px[i]) == kNotSeen) continue;
-        predicted_px.push_back(predicted_of_cut_px[i]);
-        measured_px.push_back(measured_of_cut_px[i]);
+Promises promises_of(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera, double error_px) {
+    std::vector<float> predicted_px, measured_px;
+    terrain::predict_triangles(terrain, cut, camera, error_px, predicted_px);
+    measure_triangles(terrain, cut, camera, measured_px);
+    Promises seen;
+    for (size_t i = 0; i < predicted_px.size(); ++i) {
+        if (double(measured_px[i]) == kNotSeen) continue;
+        seen.predicted_px.push_back(predicted_px[i]);
+        seen.measured_px.push_back(measured_px[i]);
     }
+    return seen;
 }
 
 }  // namespace overlook::measure

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "runtime/terrain/predict.h"
+#include "runtime/terrain/refine.h"
+#include "tools/measure/numbers/honesty.h"
 
 namespace overlook::measure {
 
@@ -11,15 +12,13 @@ constexpr double kNotSeen = -1;
 
 // For every triangle of a cut: the greatest distance on the screen, in pixels, between a source sample that it covers (at the
 // same column and row; borders count) and the point that it draws there, over the samples of which one or the other is in the
-// frame; kNotSeen if there is none, infinite if one of the two is behind the eye. Exact point-in-triangle arithmetic. O(samples
+// frame; kNotSeen if there is none, infinite if one of the two is behind the eye. Source samples stand where the file has them,
+// or with unsure_m > 0 at most so far above or below, wherever that is worst. Exact point-in-triangle arithmetic. O(samples
 // covered).
 void measure_triangles(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera,
-                       std::vector<float>& measured_px);
+                       std::vector<float>& measured_px, double unsure_m = 0);
 
-// Adds one cut's triangles, those seen, to what numbers/honesty.h judges.
-struct PromiseTally {
-    std::vector<float> predicted_px, measured_px;
-    void add(const std::vector<float>& predicted_of_cut_px, const std::vector<float>& measured_of_cut_px);
-};
+// What a cut made with wants_codes for this camera at error_px promises of the triangles seen, and what they do.
+Promises promises_of(const terrain::Terrain& terrain, const terrain::Cut& cut, const view::Camera& camera, double error_px);
 
 }  // namespace overlook::measure

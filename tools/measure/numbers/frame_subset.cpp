@@ -1,5 +1,7 @@
 #include "tools/measure/numbers/frame_subset.h"
 
+#include <algorithm>
+
 namespace overlook::measure {
 
 std::vector<uint32_t> flip_frames(uint32_t frame_count, std::span<const uint32_t> events) {
@@ -14,6 +16,13 @@ std::vector<uint32_t> flip_frames(uint32_t frame_count, std::span<const uint32_t
     std::vector<uint32_t> frames;
     for (uint32_t frame = 0; frame < frame_count; ++frame)
         if (chosen[frame]) frames.push_back(frame);
+    return frames;
+}
+
+std::vector<uint32_t> spread_frames(uint32_t frame_count, uint32_t most) {
+    std::vector<uint32_t> frames;
+    uint32_t count = std::min(frame_count, most);
+    for (uint64_t i = 0; i < count; ++i) frames.push_back(count == 1 ? 0 : uint32_t(i * (frame_count - 1) / (count - 1)));
     return frames;
 }
 

@@ -9,17 +9,12 @@
 #include "tools/measure/numbers/percentiles.h"
 
 namespace overlook::measure {
-namespace {
 
-constexpr double kIdleRatio = 0.3;
-
-// Infinite where more than nothing was measured against a predicted nothing, or where either is no number.
-double ratio_of(double predicted_px, double measured_px) {
+// Infinite, too, where more than nothing was measured against a predicted nothing.
+double honesty_ratio(double predicted_px, double measured_px) {
     double ratio = measured_px / predicted_px;
     return std::isnan(ratio) || predicted_px < 0 ? std::numeric_limits<double>::infinity() : ratio;
 }
-
-}  // namespace
 
 Honesty honesty_of(std::span<const float> predicted_px, std::span<const float> measured_px, double noise_px) {
     assert(predicted_px.size() == measured_px.size());
@@ -34,7 +29,7 @@ Honesty honesty_of(std::span<const float> predicted_px, std::span<const float> m
             ++honesty.exact;
             continue;
         }
-        double ratio = ratio_of(predicted, measured);
+        double ratio = honesty_ratio(predicted, measured);
         honesty.broken_zeros += predicted == 0;
         honesty.above_prediction += ratio > 1;
         honesty.ratio_max = std::max(honesty.ratio_max, ratio);
@@ -44,9 +39,12 @@ Honesty honesty_of(std::span<const float> predicted_px, std::span<const float> m
     return honesty;
 }
 
+bool has_ratios(const Honesty& honesty) {
+    return honesty.exact + honesty.broken_zeros < honesty.count;
+}
+
 bool is_honest(const Honesty& honesty) {
-    bool has_ratios = honesty.exact + honesty.broken_zeros < honesty.count;
-    return honesty.above_prediction == 0 && (!has_ratios || honesty.ratio_median >= kIdleRatio);
+    return honesty.above_prediction == 0 && (!has_ratios(honesty) || honesty.ratio_median >= kIdleRatio);
 }
 
 }  // namespace overlook::measure

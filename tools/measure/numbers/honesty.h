@@ -3,8 +3,15 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace overlook::measure {
+
+// What a frame promises of each thing that it draws (a triangle, a splat) and that is seen, and how far it is off: [things] each,
+// pixels.
+struct Promises {
+    std::vector<float> predicted_px, measured_px;
+};
 
 struct Honesty {
     size_t count = 0;             // triangles (or splats)
@@ -20,7 +27,13 @@ struct Honesty {
 // predicted, up to noise_px measured (the rounding of the measuring itself) is 0. O(n).
 Honesty honesty_of(std::span<const float> predicted_px, std::span<const float> measured_px, double noise_px = 1e-6);
 
-// The gate of every method: never more than predicted, and the predictions not idle: median ratio at least 0.3 (if there is one).
+// measured / predicted, predicted not 0; infinite where it is no number.
+double honesty_ratio(double predicted_px, double measured_px);
+
+// The gate of every method: never more than predicted, and the predictions not idle: median ratio at least kIdleRatio (if there
+// is one).
+constexpr double kIdleRatio = 0.3;
+bool has_ratios(const Honesty& honesty);
 bool is_honest(const Honesty& honesty);
 
 }  // namespace overlook::measure

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/terrain/predict.h"
 #include "runtime/view/error_budget.h"
 #include "tools/measure/honesty/terrain_honesty.h"
-#include "tools/measure/numbers/honesty.h"
+#include "tools/measure/numbers/honesty_tally.h"
 #include "tools/measure/stability/stage.h"
 #include "tools/measure/stability/surface.h"
 
@@ -116,23 +115,19 @@ Result<std::vector<Finding>> run_slopes(Stage& stage, const Case&, const scene::
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
         Finding finding;
-        PromiseTally tally;
+        HonestyTally tally;
         uint32_t worst_frame = 0;
         double worst_px = -1;
-        terrain::Cut cut;
-        cut.wants_codes = true;
+        std::unique_ptr<Method> method = make_method(spec, stage.world);
         for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
-            stage.world.refiner->cut_by_pixels(cameras[frame], setting(spec, "error-px"), cut, morph_of(spec));
-            std::vector<float> predicted_px, measured_px;
-            terrain::predict_triangles(*stage.world.terrain, cut, cameras[frame], setting(spec, "error-px"), predicted_px);
-            measure_triangles(*stage.world.terrain, cut, cameras[frame], measured_px);
-            tally.add(predicted_px, measured_px);
-            double most = 0;
-            for (float each : measured_px) most = std::max(most, double(each));
-            if (most > worst_px) worst_frame = frame;
-            worst_px = std::max(worst_px, most);
+            method->decide(cameras[frame], frame);
+            std::optional<Promises> promises = method->promises();
+            if (!promises) return impossible("{}: promises nothing of what it draws", label_of(spec));
+            double most_px = tally.add(promises->predicted_px, promises->measured_px).measured_max_px;
+            if (most_px > worst_px) worst_frame = frame;
+            worst_px = std::max(worst_px, most_px);
         }
-        Honesty honesty = honesty_of(tally.predicted_px, tally.measured_px);
+        const Honesty& honesty = tally.all();
         finding.figures["honesty"] = honesty.ratio_max;
         finding.frames = uint32_t(cameras.size());
         finding.sentence = fmt::format(

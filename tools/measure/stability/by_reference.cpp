@@ -89,7 +89,7 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
         Finding& finding = (*findings)[i];
         double worst_px = 0, above = 0;
         for (const view::Camera& camera : cameras) {
-            double error_px = displacement_px(stage, specs[i], camera);
+            double error_px = displacement_of(stage, specs[i], camera).measured_px;
             worst_px = std::max(worst_px, error_px);
             above += error_px > 2 * stage.asked_px ? 1 : 0;
         }
@@ -113,7 +113,8 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
         Finding& finding = (*findings)[i];
         // A cut depends on the camera alone, so that the frames after the first are the first again.
         double worst_px = 0;
-        for (const view::Camera& camera : arrivals) worst_px = std::max(worst_px, displacement_px(stage, specs[i], camera));
+        for (const view::Camera& camera : arrivals)
+            worst_px = std::max(worst_px, displacement_of(stage, specs[i], camera).measured_px);
         finding.figures["frames_until_error_met"] = worst_px <= stage.asked_px ? 0 : double(all.size());
         finding.sentence = fmt::format(
             "In the very frames of arrival no source sample is drawn farther than {:.3f} px from its "
@@ -157,11 +158,29 @@ Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene:
 
 Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::Flight& flight,
                                        std::span<const MethodSpec> specs) {
-    Result<std::vector<Finding>> findings = count_holes(stage, cameras_of(stage, flight, Pick::spread), flight.step_s, specs);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
-    for (Finding& finding : *findings) {
-        finding.figures["fallbacks_unsaid"] = 0;
-        finding.sentence = "A terrain is baked for every place: it has nothing to fall back to, and nothing to say.";
+    // A terrain is baked for every distance down to where its own heights are too coarse for the error asked: nearer, it falls
+    // back to them. It says so by predicting more than was asked.
+    double finest_m = stage.world.terrain->finest_error_m;
+    for (size_t i = 0; i < specs.size(); ++i) {
+        uint32_t fallbacks = 0, unsaid = 0;
+        double worst_px = 0;
+        for (const view::Camera& camera : cameras) {
+            Displacement frame = displacement_of(stage, specs[i], camera, finest_m);
+            worst_px = std::max(worst_px, frame.measured_px);
+            if (frame.measured_px <= stage.asked_px) continue;
+            ++fallbacks;
+            if (frame.predicted_px <= stage.asked_px) ++unsaid;
+        }
+        Finding& finding = (*findings)[i];
+        finding.figures["fallbacks_unsaid"] = unsaid;
+        finding.sentence = fmt::format(
+            "Its heights are within {:g} m of the source's; with the worst of them a point may stand {:.3f} px from its place, "
+            "{} px "
+            "asked. {} of {} frames cannot keep that, {} of them without saying so.",
+            finest_m, worst_px, stage.asked_px, fallbacks, cameras.size(), unsaid);
     }
     return findings;
 }

@@ -5,6 +5,7 @@
 
 #include "formats/container.h"
 #include "runtime/view/flight.h"
+#include "tools/measure/numbers/frame_subset.h"
 #include "tools/measure/numbers/path_dependence.h"
 #include "tools/measure/stability/stage.h"
 
@@ -36,7 +37,82 @@ view::Camera moved(const view::Camera& camera, scene::Transform transform, doubl
     return view::camera_into(transform, outside);
 }
 
+std::string hash_of(const ImageRgb8& image) {
+    return content_hash(std::as_bytes(std::span(image.pixels)));
+}
+
+// The flight in equally long parts, of each at most `most` frames (0 = all), spread over it.
+std::vector<std::vector<view::Camera>> legs_of(const std::vector<view::Camera>& cameras, uint32_t count, uint32_t most) {
+    std::vector<std::vector<view::Camera>> legs;
+    uint32_t length = uint32_t(cameras.size()) / count;
+    for (uint32_t leg = 0; leg < count; ++leg) {
+        legs.emplace_back();
+        for (uint32_t frame : spread_frames(length, most == 0 ? length : most))
+            legs.back().push_back(cameras[leg * length + frame]);
+    }
+    return legs;
+}
+
 }  // namespace
+
+Result<Together> fly_together(const std::function<std::unique_ptr<Method>()>& make,
+                              std::span<const std::vector<view::Camera>> legs, uint32_t samples) {
+    size_t count = legs.size(), frames = legs.front().size();
+    const view::Camera& first = legs.front().front();
+    Result<gl::Target> target = gl::Target::make(first.width_px, first.height_px, samples);
+    if (!target) return tl::unexpected(target.error());
+    std::vector<std::unique_ptr<Method>> methods;
+    for (size_t i = 0; i < count; ++i) methods.push_back(make());
+    std::vector<std::vector<ImageRgb8>> at_once(count);
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        for (size_t i = 0; i < count; ++i) methods[i]->decide(legs[i][frame], frame);
+        for (size_t i = 0; i < count; ++i) {
+            size_t camera = (frame + i) % count;
+            methods[camera]->draw(*target);
+            at_once[camera].push_back(target->read());
+        }
+    }
+    Together together;
+    uint64_t most_changed = 0;
+    for (size_t i = 0; i < count; ++i) {
+        std::unique_ptr<Method> alone = make();
+        bool differs = false;
+        for (uint32_t frame = 0; frame < frames; ++frame) {
+            alone->decide(legs[i][frame], frame);
+            alone->draw(*target);
+            ImageRgb8 picture = target->read();
+            ++together.pictures;
+            differs = differs || hash_of(picture) != hash_of(at_once[i][frame]);
+            uint64_t changed = changed_pixels(picture, at_once[i][frame], 0);
+            if (together.worst && changed <= most_changed) continue;
+            most_changed = changed;
+            together.worst = Shot{frame, std::move(at_once[i][frame]), std::move(picture)};
+        }
+        together.cameras_that_differ += differs ? 1 : 0;
+    }
+    return together;
+}
+
+Result<std::vector<Finding>> run_cameras(Stage& stage, const Case& each, const scene::Flight& flight,
+                                         std::span<const MethodSpec> specs) {
+    uint32_t count = each.settings.cameras, most = stage.frames == 0 ? 0 : std::max(2u, stage.frames / count);
+    std::vector<std::vector<view::Camera>> legs = legs_of(cameras_of(stage, flight, Pick::all), count, most);
+    std::vector<Finding> findings;
+    for (const MethodSpec& spec : specs) {
+        Result<Together> together = fly_together([&] { return make_method(spec, stage.world); }, legs, samples_of(spec));
+        if (!together) return tl::unexpected(together.error());
+        Finding finding;
+        finding.figures["cameras_that_differ"] = together->cameras_that_differ;
+        finding.frames = together->pictures;
+        finding.worst = std::move(together->worst);
+        finding.sentence = fmt::format(
+            "{} cameras over one terrain, frame by frame in turn: of {} the pictures are not those of flying "
+            "alone.",
+            count, together->cameras_that_differ == 0 ? "none" : std::to_string(together->cameras_that_differ));
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
 
 Result<std::vector<Finding>> run_moved_world(Stage& stage, const Case& each, const scene::Flight& flight,
                                              std::span<const MethodSpec> specs) {
@@ -95,8 +171,7 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
                 Result<ImageRgb8> fresh = draw_once(*make_method(spec, stage.world), camera, 0, samples_of(spec));
                 if (!fresh) return tl::unexpected(fresh.error());
                 stale += changed_pixels(*picture, *fresh, 0);
-                auto hash = [](const ImageRgb8& image) { return content_hash(std::as_bytes(std::span(image.pixels))); };
-                same_hashes += hash(*picture) == hash(*fresh) ? 1 : 0;
+                same_hashes += hash_of(*picture) == hash_of(*fresh) ? 1 : 0;
                 finding.worst = Shot{uint32_t(begin) + after, std::move(*picture), std::move(*fresh)};
             }
         }

@@ -15,7 +15,7 @@ namespace {
 
 struct SuiteOptions {
     std::string folder, scene, out;
-    std::vector<std::string> cases, methods{"terrain:morph", "terrain"};
+    std::vector<std::string> cases, methods{"terrain", "terrain:hard"};
     std::string size = "320x240";
     uint32_t frames = 0;
     double asked_px = 1;
@@ -27,7 +27,7 @@ void add_suite_options(CLI::App& app, SuiteOptions& options) {
                    "What is flown over: a scene (.json) or a baked terrain (.ovl); default the first case's")
         ->type_name("SCENE");
     app.add_option("--case", options.cases, "S01 ...: these cases alone; may be repeated")->type_name("CASE");
-    app.add_option("--method", options.methods, "As of measure; may be repeated; default terrain:morph and terrain")
+    app.add_option("--method", options.methods, "As of measure; may be repeated; default terrain and terrain:hard")
         ->type_name("METHOD")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "images/s01-terrain-pop-error-px-1-samples-4-test.png".
+// "images/s01-terrain-hard-error-px-1-samples-4-test.png".
 std::string image_path(const Verdict& verdict, const char* what) {
     std::string name = verdict.number + "-" + label_of(verdict.spec) + "-" + what;
     for (char& c : name) {
@@ -181,9 +181,8 @@ std::string stability_html(const SuiteResult& result, const RunSetup& setup, con
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\">\n<title>Stability suite</title>\n<style>\n{}</style>\n</head>\n<body>\n"
-        "<main>\n<h1>Stability suite: {} of {} verdicts pass</h1>\n<p class=\"note\">The plain terrain exchanges its levels at "
-        "once: the "
-        "baseline beside which terrain:morph is seen.</p>\n{}{}{}{}</main>\n</body>\n</html>\n",
+        "<main>\n<h1>Stability suite: {} of {} verdicts pass</h1>\n<p class=\"note\">terrain:hard exchanges its levels at "
+        "once: the baseline beside which terrain, whose vertices morph, is seen.</p>\n{}{}{}{}</main>\n</body>\n</html>\n",
         kPageStyle, kept, result.verdicts.size(), facts_html(setup, stage), matrix_html(result), cases_html(result),
         owed_html(result));
 }

@@ -47,14 +47,14 @@ Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Cam
     return Shot{frame, std::move(*test), {reference->width, reference->height, std::move(reference->rgb)}};
 }
 
-double displacement_px(const Stage& stage, const MethodSpec& spec, const view::Camera& camera) {
+Displacement displacement_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, double unsure_m) {
     terrain::Cut cut;
     stage.world.refiner->cut_by_pixels(camera, setting(spec, "error-px"), cut, morph_of(spec));
     std::vector<float> measured_px;
-    measure_triangles(*stage.world.terrain, cut, camera, measured_px);
+    measure_triangles(*stage.world.terrain, cut, camera, measured_px, unsure_m);
     float greatest = 0;
     for (float each : measured_px) greatest = std::max(greatest, each);
-    return double(greatest);
+    return {double(greatest), cut.predicted_error_px};
 }
 
 }  // namespace overlook::measure

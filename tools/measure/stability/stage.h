@@ -64,9 +64,10 @@ Result<std::vector<Finding>> run_horizon(Stage&, const Case&, const scene::Fligh
 Result<std::vector<Finding>> run_climb(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_dropping(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
-// Cases judged by pictures that should be the same: S12, S17, S20.
+// Cases judged by pictures that should be the same: S12, S17, S18, S20.
 Result<std::vector<Finding>> run_moved_world(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_resize(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_cameras(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on what is decided: S02, S11, S19.
@@ -74,7 +75,22 @@ Result<std::vector<Finding>> run_jitter(Stage&, const Case&, const scene::Flight
 Result<std::vector<Finding>> run_slopes(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_halved_budget(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
-// The greatest distance on the screen, pixels, between a source sample and where the cut of this spec draws it.
-double displacement_px(const Stage& stage, const MethodSpec& spec, const view::Camera& camera);
+// The greatest distance on the screen, pixels, between a source sample and where the cut of this spec draws it; and the greatest
+// that it predicts. unsure_m: how far the source's samples may stand from where the file has them.
+struct Displacement {
+    double measured_px = 0, predicted_px = 0;
+};
+Displacement displacement_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, double unsure_m = 0);
+
+// S18: cameras that fly at once, each with a method of its own from `make`, all over what these share. legs: [cameras][frames] >=
+// 1, equally long. Every frame is decided for all cameras, then drawn for all, beginning with another one each time; then each
+// camera flies alone. Fails with Exit::impossible (targets).
+struct Together {
+    uint32_t cameras_that_differ = 0;  // have a picture whose hash is not that of the same picture alone
+    uint32_t pictures = 0;             // compared
+    std::optional<Shot> worst;         // of the camera with the most pixels that differ: at once, and alone
+};
+Result<Together> fly_together(const std::function<std::unique_ptr<Method>()>& make,
+                              std::span<const std::vector<view::Camera>> legs, uint32_t samples);
 
 }  // namespace overlook::measure
