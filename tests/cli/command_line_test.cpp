@@ -23,8 +23,9 @@ std::string name_of(const Words& verb) {
     return verb.size() == 1 ? verb[0] : verb[0] + " " + verb[1];
 }
 
-const std::vector<Words> kVerbs = {{"bake-lod", "terrain"}, {"baked", "info"},      {"baked", "verify"}, {"baked", "diff"},
-                                   {"baked", "export"},     {"make-sample", "dem"}, {"make-sample", "lod-sprite"}, {"player"}};
+const std::vector<Words> kVerbs = {
+    {"bake-lod", "terrain"}, {"baked", "info"},      {"baked", "verify"},           {"baked", "diff"},
+    {"baked", "export"},     {"make-sample", "dem"}, {"make-sample", "lod-sprite"}, {"player"}};
 const std::vector<Words> kCommands = {{"bake-lod"}, {"baked"}, {"make-sample"}, {"measure"}, {"player"}, {"stability"}};
 
 // Of every option and argument something is said: after its name in the column of descriptions, or on the next line.

@@ -51,10 +51,12 @@ TEST(LodSpriteSample, HasThePapersTrianglesInTheViewsOfFiguresSixAndSeven) {
         scene::Flight flight = lod_sprite_flight();
         view::Camera camera = camera_at_frame(uint32_t(view.time_s / flight.step_s));
         refiner.cut_by_pixels(camera, kLodSpriteHigh_px, cut);
-        EXPECT_NEAR(double(cut.triangle_count()), double(view.high_triangle_count), kHighTolerance * view.high_triangle_count)
+        EXPECT_NEAR(double(cut.triangle_count()), double(view.high_triangle_count),
+                    kHighTolerance * double(view.high_triangle_count))
             << "figure " << view.figure;
         refiner.cut_by_pixels(camera, kLodSpriteLow_px, cut);
-        EXPECT_NEAR(double(cut.triangle_count()), double(view.low_triangle_count), kLowTolerance * view.low_triangle_count)
+        EXPECT_NEAR(double(cut.triangle_count()), double(view.low_triangle_count),
+                    kLowTolerance * double(view.low_triangle_count))
             << "figure " << view.figure;
     }
 }
