@@ -45,7 +45,7 @@ std::string plot_of(const std::vector<Line>& lines, std::string_view figure_name
 
 // A level that the paper prints, across the chart.
 std::string printed_level(double value, const std::string& title) {
-    return fmt::format(", \\\n{} with lines {} lw 1 dt 3 title {}", value, kGrey, gnuplot_text(title));
+    return fmt::format(", \\\n{} with lines {} lw 1.5 dt 2 title {}", value, kGrey, gnuplot_text(title));
 }
 std::string printed_point(double x, double y, const std::string& title) {
     return fmt::format(", \\\n'-' using 1:2 with points pt 2 ps 1.6 lw 2 lc rgb \"#9c2f00\" title {}\n{},{}\ne\n",
@@ -111,7 +111,7 @@ Chart by_threshold(const Flown& flown) {
     Chart chart{"figure-13", "Figure 13: share of keyframes against the threshold", chart_head()};
     chart.script += "set xlabel 'threshold, pixels'\nset ylabel 'keyframes / frames'\nset yrange [0:*]\nset xrange [0:*]\n";
     chart.script +=
-        fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} dt 3\n", Printed::kKneeThreshold_px, kGrey);
+        fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} lw 1.5 dt 2\n", Printed::kKneeThreshold_px, kGrey);
     chart.script +=
         fmt::format("set label \"paper's knee\" at {}, graph 0.95 offset 0.6,0 tc rgb \"#666666\"\n", Printed::kKneeThreshold_px);
     chart.script += swept_plot(flown, "thresholds.csv", "$2", "5") +
