@@ -59,9 +59,9 @@ Result<Target> Target::make(uint32_t width_px, uint32_t height_px, uint32_t samp
     return made;
 }
 
-void Target::bind() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
-    glViewport(0, 0, GLsizei(width_px_), GLsizei(height_px_));
+void bind_for_drawing(GLuint framebuffer, uint32_t width_px, uint32_t height_px) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, GLsizei(width_px), GLsizei(height_px));
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
@@ -69,7 +69,12 @@ void Target::bind() const {
     glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DITHER);
+    glDisable(GL_CULL_FACE);
     glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Target::bind() const {
+    bind_for_drawing(drawn_.id(), width_px_, height_px_);
 }
 
 void Target::resolve() const {

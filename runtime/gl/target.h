@@ -10,6 +10,10 @@
 
 namespace overlook::gl {
 
+// Makes what is drawn next go into a framebuffer of this size: whole viewport, reversed depth (near 1, far 0) from zero to one,
+// depths written and tested, no blending, colours as they are.
+void bind_for_drawing(GLuint framebuffer, uint32_t width_px, uint32_t height_px);
+
 class Target {
   public:
     // width_px, height_px >= 1; samples >= 1 (antialiasing). Fails with Exit::impossible if the renderer cannot:

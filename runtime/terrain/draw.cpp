@@ -110,15 +110,22 @@ Result<Drawing> Drawing::make(const Terrain& terrain) {
     return made;
 }
 
+Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
+    std::string vertex =
+        shaders::kTerrainVertexInputs + (shader.vertex.empty() ? shaders::kUnmoved : shader.vertex) + shaders::kTerrainVertexMain;
+    std::string fragment = std::string(shaders::kAir) + shaders::kTerrainFragment + shader.fragment;
+    return gl::Program::make(shader.name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
+}
+
 Result<void> Drawing::make_programs() {
+    const std::string vertex_source =
+        std::string(shaders::kTerrainVertexInputs) + shaders::kUnmoved + shaders::kTerrainVertexMain;
     const std::string ground_source = std::string(shaders::kAir) + shaders::kTerrainFragment;
-    const std::string shaded_source = ground_source + shaders::kShadedMain;
     const std::string wireframe_source = ground_source + shaders::kWireframeMain;
     const std::string sky_source = std::string(shaders::kAir) + shaders::kSkyFragment;
-    auto shaded =
-        gl::Program::make("terrain", {{GL_VERTEX_SHADER, shaders::kTerrainVertex}, {GL_FRAGMENT_SHADER, shaded_source}});
+    auto shaded = program({"terrain", "", shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
-    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, shaders::kTerrainVertex},
+    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source},
                                                      {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},
                                                      {GL_FRAGMENT_SHADER, wireframe_source}});
     if (!wireframe) return tl::unexpected(wireframe.error());
@@ -129,6 +136,14 @@ Result<void> Drawing::make_programs() {
     sky_ = std::move(*sky);
     return {};
 }
+
+namespace {
+
+view::Part part_of(const view::Camera& camera, const DrawOptions& options) {
+    return options.part.value_or(view::Part{0, 0, camera.width_px, camera.height_px});
+}
+
+}  // namespace
 
 void Drawing::set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
     constexpr double kFarthestCell = 1 << 30;
@@ -146,20 +161,25 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform2f(program.at("metres_per_cell"), float(metres_per_column_), float(-metres_per_row_));
     glUniform1f(program.at("camera_height_m"), float(place_m.z - base_m_));
     glUniformMatrix4fv(program.at("clip_from_relative"), 1, GL_FALSE, glm::value_ptr(clip_from_relative));
+    view::PartMap map = view::part_map(camera, part_of(camera, options));
+    glUniform4f(program.at("part"), float(map.scale.x), float(map.scale.y), float(map.shift.x), float(map.shift.y));
     glUniform2f(program.at("raster_size"), float(width_), float(height_));
     glUniform1i(program.at("has_texture"), has_texture_ ? 1 : 0);
     glUniform1i(program.at("colours"), 0);
     glUniform2f(program.at("height_range_m"), float(lowest_m_), float(highest_m_));
+    glUniform2f(program.at("place_per_m"), float(1 / width_m), float(-1 / height_m));
     glUniform1f(program.at("haze_per_m"), float(0.5 * options.haze / std::hypot(width_m, height_m)));
     glUniform1f(program.at("line_px"), float(options.line_px));
 }
 
-void Drawing::draw_sky(const view::Camera& camera) const {
+void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) const {
+    view::Part part = part_of(camera, options);
     glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
-    double focal = view::focal_px(camera);
     sky_.use();
     glUniformMatrix3fv(sky_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
-    glUniform2f(sky_.at("tangents"), float(camera.width_px / (2 * focal)), float(camera.height_px / (2 * focal)));
+    glUniform1f(sky_.at("focal_px"), float(view::focal_px(camera)));
+    glUniform2f(sky_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
+    glUniform2f(sky_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
     glBindVertexArray(nothing_.id());
     glDepthMask(GL_FALSE);
     glDisable(GL_DEPTH_TEST);
@@ -168,7 +188,7 @@ void Drawing::draw_sky(const view::Camera& camera) const {
     glDepthMask(GL_TRUE);
 }
 
-void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
+void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
     program.use();
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
@@ -183,7 +203,7 @@ void Drawing::draw_cut(const gl::Program& program, const view::Camera& camera, c
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 
-void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options) {
+void Drawing::take(const Cut& cut) {
     // A draw call counts in 31 bits; a cut of so many triangles would be hours of work anyway.
     size_t most_indices = size_t(std::numeric_limits<GLsizei>::max()) / 3 * 3;
     std::span<const uint32_t> indices = std::span(cut.indices).first(std::min(cut.indices.size(), most_indices));
@@ -192,23 +212,26 @@ void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera&
     static_assert(sizeof(Cut::Morph) == 8);
     if (!cut.morphs.empty()) morphs_.fill(std::as_bytes(std::span(cut.morphs)));
     uploaded_bytes_ = indices.size_bytes() + cut.morphs.size() * sizeof(Cut::Morph);
+}
 
+void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options) {
+    take(cut);
     target.bind();
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glDisable(GL_CULL_FACE);
-    draw_sky(camera);
+    draw_sky(camera, options);
 
     GLint half_px = GLint(target.width_px() / 2);
     if (options.look == Look::split) {
         glEnable(GL_SCISSOR_TEST);
         glScissor(0, 0, half_px, GLsizei(target.height_px()));
-        draw_cut(wireframe_, camera, options);
+        draw_with(wireframe_, camera, options);
         glScissor(half_px, 0, GLsizei(target.width_px()) - half_px, GLsizei(target.height_px()));
-        draw_cut(shaded_, camera, options);
+        draw_with(shaded_, camera, options);
         glDisable(GL_SCISSOR_TEST);
     } else {
-        draw_cut(options.look == Look::wireframe ? wireframe_ : shaded_, camera, options);
+        draw_with(options.look == Look::wireframe ? wireframe_ : shaded_, camera, options);
     }
     target.resolve();
 }

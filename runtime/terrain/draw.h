@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "formats/terrain.h"
 #include "runtime/gl/objects.h"
 #include "runtime/gl/program.h"
+#include "runtime/gl/surface.h"
 #include "runtime/gl/target.h"
 #include "runtime/terrain/refine.h"
 #include "runtime/view/camera.h"
@@ -25,6 +27,9 @@ struct DrawOptions {
     float anisotropy = 1;    // texels taken along the view, at most; 1 where software draws (see player's choose_samples)
     double line_px = 1;      // width of the wireframe's lines
     glm::dvec3 origin_m{0};  // where the terrain's own origin lies in the world that the camera is in
+    // What of the camera's picture the target shows, pixel by pixel; the whole of it if not said. (Pictures larger than a
+    // renderer can draw are put together from parts.)
+    std::optional<view::Part> part;
 };
 
 // A terrain on the graphics card: 4 bytes a sample and its texture. The terrain itself may go afterwards.
@@ -36,18 +41,23 @@ class Drawing {
     static Result<Drawing> make(const Terrain& terrain);
 
     // Draws sky and terrain into `target` and resolves it. Indices of `cut` refer to the terrain given to make().
-    // The same arguments give the same picture.
+    // The same arguments give the same picture. A part shows what the whole picture shows there, but for what rounding decides:
+    // a renderer rounds places on the screen by their distance from the viewport's own corner.
     void draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options);
 
-    // What the last draw() sent to the card.
+    // Draws with a cut what a method colours by itself, into whatever is bound.
+    Result<gl::Program> program(const gl::SurfaceShader& shader) const;
+    void take(const Cut& cut);  // what draw_with() draws from now on
+    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
+    void draw_sky(const view::Camera& camera, const DrawOptions& options) const;
+
+    // What the last draw() or take() sent to the card.
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
   private:
     Drawing() = default;
     Result<void> make_programs();
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
-    void draw_sky(const view::Camera& camera) const;
-    void draw_cut(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
 
     uint32_t width_ = 0, height_ = 0;
     double metres_per_column_ = 1, metres_per_row_ = 1;
@@ -63,6 +73,24 @@ class Drawing {
     gl::Texture texture_;
     gl::Program shaded_, wireframe_, sky_;
     uint64_t uploaded_bytes_ = 0;
+};
+
+// A terrain's cut as a thing that any method may colour. The drawing must outlive it.
+class CutSurface : public gl::Surface {
+  public:
+    CutSurface(Drawing& drawing, const DrawOptions& options) : drawing_(drawing), options_(options) {}
+
+    // What is drawn from now on.
+    void take(const Cut& cut) { drawing_.take(cut); }
+    uint64_t uploaded_bytes() const { return drawing_.uploaded_bytes(); }
+
+    Result<gl::Program> program(const gl::SurfaceShader& shader) const override { return drawing_.program(shader); }
+    void draw(const gl::Program& program, const view::Camera& camera) override { drawing_.draw_with(program, camera, options_); }
+    void draw_background(const view::Camera& camera) override { drawing_.draw_sky(camera, options_); }
+
+  private:
+    Drawing& drawing_;
+    DrawOptions options_;
 };
 
 }  // namespace overlook::terrain

@@ -6,7 +6,7 @@ namespace overlook::terrain::shaders {
 
 // A vertex is a raster sample, or from `sample_count` on a place in the list of those that morph: which sample, and how far above
 // its own height.
-inline constexpr char kTerrainVertex[] = R"(#version 450 core
+inline constexpr char kTerrainVertexInputs[] = R"(#version 450 core
 layout(binding = 1) uniform samplerBuffer heights;   // of every sample above the terrain's base, metres
 layout(binding = 2) uniform usamplerBuffer morphs;   // sample, and the bits of its rise in metres
 uniform uint sample_count;
@@ -16,13 +16,23 @@ uniform vec2 camera_rest;
 uniform vec2 metres_per_cell;                  // y negative: rows go down the raster
 uniform float camera_height_m;                 // above the terrain's base
 uniform mat4 clip_from_relative;
+uniform vec4 part;                             // of the picture: scale and shift of what is drawn
 uniform vec2 raster_size;
 out Surface {
     vec3 relative_m;
     vec2 place;                                // 0..1 over the raster
     float height_m;
 } surface;
+)";
 
+// Vertices are drawn where they are.
+inline constexpr char kUnmoved[] = R"(
+vec3 placed(vec3 relative_m) {
+    return relative_m;
+}
+)";
+
+inline constexpr char kTerrainVertexMain[] = R"(
 void main() {
     uint id = uint(gl_VertexID);
     float rise_m = 0.0;
@@ -34,10 +44,12 @@ void main() {
     float height_m = texelFetch(heights, int(id)).r + rise_m;
     ivec2 cell = ivec2(id % width, id / width);
     vec2 cells_away = vec2(cell - camera_sample) - camera_rest;
-    surface.relative_m = vec3(cells_away * metres_per_cell, height_m - camera_height_m);
-    surface.place = (vec2(cell) + 0.5) / raster_size;
-    surface.height_m = height_m;
+    vec3 true_m = vec3(cells_away * metres_per_cell, height_m - camera_height_m);
+    surface.relative_m = placed(true_m);
+    surface.place = (vec2(cell) + 0.5 + (surface.relative_m.xy - true_m.xy) / metres_per_cell) / raster_size;
+    surface.height_m = height_m + surface.relative_m.z - true_m.z;
     gl_Position = clip_from_relative * vec4(surface.relative_m, 1.0);
+    gl_Position.xy = gl_Position.xy * part.xy + gl_Position.w * part.zw;
 }
 )";
 
@@ -99,30 +111,34 @@ uniform bool has_texture;
 uniform sampler2D colours;
 uniform float haze_per_m;
 uniform vec2 height_range_m;
+uniform vec2 place_per_m;
 out vec4 colour;
 
-vec3 slope_shading() {
+vec3 slope_shading(float height_m) {
     vec3 normal = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
     if (normal.z < 0.0) normal = -normal;
     float light = 0.22 + 0.78 * max(0.0, dot(normal, normalize(vec3(-0.55, 0.55, 0.62))));
-    float share = clamp((surface.height_m - height_range_m.x) / max(height_range_m.y - height_range_m.x, 1e-6), 0.0, 1.0);
+    float share = clamp((height_m - height_range_m.x) / max(height_range_m.y - height_range_m.x, 1e-6), 0.0, 1.0);
     return light * mix(vec3(0.33, 0.36, 0.24), vec3(0.70, 0.66, 0.60), share);
 }
 
-vec3 ground_colour() {
-    return has_texture ? texture(colours, surface.place).rgb : slope_shading();
+// Of the ground near the pixel, at a place relative to the eye.
+vec3 own_colour(vec3 at_m) {
+    vec3 away_m = at_m - surface.relative_m;
+    if (!has_texture) return slope_shading(surface.height_m + away_m.z);
+    return texture(colours, surface.place + away_m.xy * place_per_m).rgb;
 }
 
-vec3 behind_air(vec3 ground) {
-    float distance_m = length(surface.relative_m);
-    vec3 air = air_colour(min(surface.relative_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
+vec3 behind_air(vec3 ground, vec3 at_m) {
+    float distance_m = length(at_m);
+    vec3 air = air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
     return mix(air, ground, exp(-pow(distance_m * haze_per_m, 1.5)));
 }
 )";
 
 inline constexpr char kShadedMain[] = R"(
 void main() {
-    colour = vec4(encoded(behind_air(ground_colour())), 1.0);
+    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
 }
 )";
 
@@ -135,31 +151,32 @@ void main() {
     vec3 away_px = corners / per_px;
     float nearest_px = min(away_px.x, min(away_px.y, away_px.z));
     float line = 1.0 - smoothstep(0.5 * line_px - 0.5, 0.5 * line_px + 0.5, nearest_px);
-    vec3 paper = mix(ground_colour(), vec3(0.85, 0.85, 0.82), 0.45);
+    vec3 paper = mix(own_colour(surface.relative_m), vec3(0.85, 0.85, 0.82), 0.45);
     vec3 ink = vec3(0.015, 0.05, 0.11);
-    colour = vec4(encoded(behind_air(mix(paper, ink, 0.85 * line))), 1.0);
+    colour = vec4(encoded(behind_air(mix(paper, ink, 0.85 * line), surface.relative_m)), 1.0);
 }
 )";
 
 inline constexpr char kSkyVertex[] = R"(#version 450 core
-uniform mat3 world_from_eye;
-uniform vec2 tangents;
-out vec3 direction;
 void main() {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    direction = world_from_eye * vec3(corner * tangents, -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);
 }
 )";
 
 inline constexpr char kSkyFragment[] = R"(
-in vec3 direction;
+uniform mat3 world_from_eye;
+uniform float focal_px;
+uniform vec2 middle_px;                        // of the picture
+uniform vec2 first_px;                         // of the part that is drawn: its lower left corner in the picture
 out vec4 colour;
 
 void main() {
+    vec2 at_px = gl_FragCoord.xy + first_px;
+    vec3 direction = world_from_eye * vec3((at_px - middle_px) / focal_px, -1.0);
     vec3 air = air_colour(normalize(direction).z);
     // Half a step of noise, the same in every frame, keeps the sky from showing bands.
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+    float noise = fract(52.9829189 * fract(dot(at_px, vec2(0.06711056, 0.00583715)))) - 0.5;
     colour = vec4(encoded(air) + noise / 255.0, 1.0);
 }
 )";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "formats/parallel.h"
 #include "formats/terrain_diamond.h"
@@ -13,6 +14,7 @@ namespace overlook::terrain {
 namespace {
 
 constexpr size_t kPartsWanted = 256;
+constexpr size_t kSlicesWanted = 4096, kPiecesAtATime = 8;
 
 // A triangle on its way down: `level` and `is_square` tell the diamond that it would be split in; level -1 is the finest.
 struct Piece {
@@ -150,7 +152,7 @@ struct Begins {
     std::vector<size_t> indices{0}, morphs{0};
 };
 
-// All parts one after the other.
+// The first so many parts one after the other.
 void join(size_t part_count, size_t sample_count, Cut& out) {
     Begins begins;
     out.void_rim_triangle_count = out.tested_count = 0;
@@ -180,23 +182,36 @@ void join(size_t part_count, size_t sample_count, Cut& out) {
     });
 }
 
-// The top of the hierarchy in one piece, then what hangs below it in parts of their own.
+// Goes down from the roots far enough to leave at least parts_wanted pieces, if nothing were left out; what ends above goes to
+// the cut's first part.
 template <class Test>
-void refine(const Terrain& terrain, const Test& test, uint8_t planes, Cut& out) {
+std::vector<Piece> top_of(const Terrain& terrain, const Test& test, uint8_t planes, size_t parts_wanted, Cut& out) {
     std::vector<Piece> roots = root_pieces(terrain.shape, planes), pieces;
     int depth = 0;
-    while ((roots.size() << depth) < kPartsWanted) ++depth;
+    while ((roots.size() << depth) < parts_wanted) ++depth;
 
     if (out.parts.empty()) out.parts.resize(1);
     start(out.parts[0]);
     Walk<Test> top(terrain, test, out.wants_codes, out.parts[0]);
     for (const Piece& root : roots) top.descend(root, depth, [&](const Piece& piece) { pieces.push_back(piece); });
+    return pieces;
+}
 
-    if (out.parts.size() < pieces.size() + 1) out.parts.resize(pieces.size() + 1);
+// All that hangs below each of the pieces, into the cut's parts from `first` on.
+template <class Test>
+void descend_all(const Terrain& terrain, const Test& test, std::span<const Piece> pieces, size_t first, Cut& out) {
+    if (out.parts.size() < first + pieces.size()) out.parts.resize(first + pieces.size());
     parallel_ranges(pieces.size(), 1, [&](size_t i, size_t) {
-        start(out.parts[i + 1]);
-        Walk<Test>(terrain, test, out.wants_codes, out.parts[i + 1]).descend(pieces[i]);
+        start(out.parts[first + i]);
+        Walk<Test>(terrain, test, out.wants_codes, out.parts[first + i]).descend(pieces[i]);
     });
+}
+
+// The top of the hierarchy in one piece, then what hangs below it in parts of their own.
+template <class Test>
+void refine(const Terrain& terrain, const Test& test, uint8_t planes, Cut& out) {
+    std::vector<Piece> pieces = top_of(terrain, test, planes, kPartsWanted, out);
+    descend_all(terrain, test, std::span<const Piece>(pieces), 1, out);
     join(pieces.size() + 1, terrain.heights.size(), out);
 }
 
@@ -219,8 +234,62 @@ void Refiner::cut_by_metres(double tolerance_m, Cut& out) const {
 }
 
 void Refiner::cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph) const {
-    ScreenTest test(impl_->terrain, impl_->bounds, camera, error_px, morph);
+    cut_by_pixels(camera, PixelDetail{error_px, morph, 0, error_px}, out);
+}
+
+void Refiner::cut_by_pixels(const view::Camera& camera, const PixelDetail& detail, Cut& out) const {
+    ScreenTest test(impl_->terrain, impl_->bounds, camera, detail);
     refine(impl_->terrain, test, ScreenTest::kAllPlanes, out);
+}
+
+struct SlicedCut::Impl {
+    const Terrain& terrain;
+    ScreenTest test;
+    std::vector<Piece> pieces;
+    size_t done_count = 0;
+    Cut::Part top;  // what ends above the pieces; goes with the first slice
+    bool is_top_out = false;
+};
+
+SlicedCut::SlicedCut(const Refiner& refiner, const view::Camera& camera, double error_px) {
+    const Refiner::Impl& from = *refiner.impl_;
+    impl_.reset(
+        new Impl{from.terrain, ScreenTest(from.terrain, from.bounds, camera, {error_px, 0, 0, error_px}), {}, 0, {}, false});
+    Cut top;
+    impl_->pieces = top_of(from.terrain, impl_->test, ScreenTest::kAllPlanes, kSlicesWanted, top);
+    impl_->top = std::move(top.parts[0]);
+}
+SlicedCut::~SlicedCut() = default;
+SlicedCut::SlicedCut(SlicedCut&&) noexcept = default;
+SlicedCut& SlicedCut::operator=(SlicedCut&&) noexcept = default;
+
+void SlicedCut::next(uint64_t triangles_wanted, Cut& out) {
+    if (out.parts.empty()) out.parts.resize(1);
+    if (impl_->is_top_out)
+        start(out.parts[0]);
+    else
+        out.parts[0] = std::move(impl_->top);
+    impl_->is_top_out = true;
+    size_t part_count = 1;
+    uint64_t index_count = out.parts[0].indices.size();
+    while (!is_done() && index_count < 3 * triangles_wanted) {
+        std::span<const Piece> left = std::span<const Piece>(impl_->pieces).subspan(impl_->done_count);
+        std::span<const Piece> group = left.first(std::min(left.size(), kPiecesAtATime));
+        descend_all(impl_->terrain, impl_->test, group, part_count, out);
+        for (size_t i = 0; i < group.size(); ++i) index_count += out.parts[part_count + i].indices.size();
+        part_count += group.size();
+        impl_->done_count += group.size();
+    }
+    join(part_count, impl_->terrain.heights.size(), out);
+}
+
+bool SlicedCut::is_done() const {
+    return impl_->is_top_out && impl_->done_count == impl_->pieces.size();
+}
+
+double SlicedCut::share_done() const {
+    if (impl_->pieces.empty()) return impl_->is_top_out ? 1 : 0;
+    return double(impl_->done_count) / double(impl_->pieces.size());
 }
 
 double Refiner::lowest_m() const {

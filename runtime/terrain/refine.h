@@ -41,6 +41,14 @@ struct Cut {
     static constexpr uint32_t kMorphBit = 1u << 31;
 };
 
+// How fine a cut is on the screen.
+struct PixelDetail {
+    double error_px = 1;  // > 0
+    double morph = 0;
+    // What comes nearer than near_depth_m (along the camera's axis) keeps near_error_px > 0, at most error_px.
+    double near_depth_m = 0, near_error_px = 1;
+};
+
 // How far vertices morph (Refiner::cut_by_pixels) unless someone asks otherwise.
 inline constexpr double kDefaultMorph = 0.5;
 
@@ -68,10 +76,34 @@ class Refiner {
     // morph (their vertex is not on the edge it splits): they and what they hang from are split to the last, which costs
     // triangles along the east and south rims of rasters whose sides are not 2^k * n + 1.
     void cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph = 0) const;
+    // The same with two tolerances, one for what is near.
+    void cut_by_pixels(const view::Camera& camera, const PixelDetail& detail, Cut& out) const;
 
     // Heights of the terrain's lowest and highest valid sample, metres.
     double lowest_m() const;
     double highest_m() const;
+
+  private:
+    friend class SlicedCut;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// One cut_by_pixels without morphing, in slices, so that a dear cut may be made and drawn over many frames. The slices together
+// hold the same triangles as the whole; which slice holds which does not depend on the thread count. The refiner must outlive it.
+class SlicedCut {
+  public:
+    SlicedCut(const Refiner& refiner, const view::Camera& camera, double error_px);
+    ~SlicedCut();
+    SlicedCut(SlicedCut&&) noexcept;
+    SlicedCut& operator=(SlicedCut&&) noexcept;
+
+    // The next slice: goes on until it holds triangles_wanted or nothing is left, and overshoots by what a few parts of the
+    // terrain hold.
+    void next(uint64_t triangles_wanted, Cut& out);
+    bool is_done() const;
+    // Of the parts of the terrain in view, how many have been gone through, 0..1.
+    double share_done() const;
 
   private:
     struct Impl;

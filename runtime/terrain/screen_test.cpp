@@ -6,13 +6,15 @@ namespace {
 constexpr double kRoundingAllowance = 1 + 1e-9;
 }  // namespace
 
-ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px,
-                       double morph)
+ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, const PixelDetail& detail)
     : bounds_(bounds),
       last_column_(terrain.shape.width - 1),
       last_row_(terrain.shape.height - 1),
       eye_z_(camera.position_m.z),
-      near_m_(camera.near_m) {
+      near_m_(camera.near_m),
+      far_(detail.error_px, detail.morph),
+      near_(detail.near_error_px, detail.morph),
+      near_depth_m_(detail.near_depth_m) {
     for (uint32_t x = 0; x <= last_column_; ++x) column_x_.push_back(x * terrain.frame.metres_per_column - camera.position_m.x);
     for (uint32_t y = 0; y <= last_row_; ++y) row_y_.push_back(-(y * terrain.frame.metres_per_row) - camera.position_m.y);
 
@@ -30,9 +32,7 @@ ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const
     axis_rise_ = std::abs(axes.forward.z);
     double corner = view::corner_secant(camera);
     corner_squared_ = corner * corner, corner_cosine_ = 1 / corner;
-    focal_squared_ = focal * focal, morphs_ = morph > 0;
-    full_px_ = error_px, enter_px_ = error_px / (1 + morph);
-    full_squared_ = full_px_ * full_px_, enter_squared_ = enter_px_ * enter_px_;
+    focal_squared_ = focal * focal, morphs_ = detail.morph > 0;
     for (int code = 0; code < 256; ++code) error_m_[code] = double(terrain.error_m[size_t(code)]) * kRoundingAllowance;
     finest_error_is_zero_ = terrain.error_m[0] == 0;
 }

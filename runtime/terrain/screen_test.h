@@ -8,6 +8,7 @@
 
 #include "formats/terrain_diamond.h"
 #include "runtime/terrain/height_bounds.h"
+#include "runtime/terrain/refine.h"
 #include "runtime/view/camera.h"
 
 namespace overlook::terrain {
@@ -36,8 +37,7 @@ class ScreenTest {
   public:
     static constexpr uint8_t kAllPlanes = 31;  // left, right, bottom, top, near
 
-    // morph: as in Refiner::cut_by_pixels.
-    ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, double error_px, double morph);
+    ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, const PixelDetail& detail);
 
     // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared
     // (px^2) to the bound of what is kept.
@@ -51,10 +51,12 @@ class ScreenTest {
         double share = 1;
         if (!must_split) {
             Bound bound = bound_of(box, error_m_[code]);
-            if (bound.is_within(full_squared_)) {
+            // A box holds those of what it splits into: none of them is near where it is not.
+            const Limits& limits = bound.depth_m < near_depth_m_ ? near_ : far_;
+            if (bound.is_within(limits.full_squared)) {
                 keep_greatest(predicted_squared, bound);
-                if (bound.is_within(enter_squared_)) return {Verdict::keep};
-                share = (std::sqrt(bound.numerator / bound.denominator) - enter_px_) / (full_px_ - enter_px_);
+                if (bound.is_within(limits.enter_squared)) return {Verdict::keep};
+                share = (std::sqrt(bound.numerator / bound.denominator) - limits.enter_px) / (limits.full_px - limits.enter_px);
             }
         }
         // What an edge of level 0 splits into is the finest there is, whatever was asked.
@@ -108,6 +110,7 @@ class ScreenTest {
     // division.
     struct Bound {
         double numerator, denominator;
+        double depth_m;  // the least
         bool is_within(double limit_squared) const { return numerator <= limit_squared * denominator; }
     };
     Bound bound_of(const Box& box, double error_m) const {
@@ -117,7 +120,7 @@ class ScreenTest {
         if (distance_squared > depth * depth * corner_squared_)
             depth = std::max(depth, std::sqrt(distance_squared) * corner_cosine_);
         double depth_after = depth - error_m * axis_rise_;
-        if (depth_after <= 0) return {kNoLimit, 0};
+        if (depth_after <= 0) return {kNoLimit, 0, depth};
 
         auto widest = [&](const Direction& d) { return std::max(d.greatest(box), -d.least(box)); };
         auto furthest = [](Interval i) { return std::max(i.high, -i.low); };
@@ -125,7 +128,7 @@ class ScreenTest {
         double depth_squared = depth * depth;
         double lever_squared = std::min(
             {corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y, far_x * far_x + far_y * far_y});
-        return {focal_squared_ * error_m * error_m * lever_squared, depth_squared * depth_after * depth_after};
+        return {focal_squared_ * error_m * error_m * lever_squared, depth_squared * depth_after * depth_after, depth};
     }
     static void keep_greatest(double& predicted_squared, const Bound& bound) {
         if (bound.numerator > predicted_squared * bound.denominator) predicted_squared = bound.numerator / bound.denominator;
@@ -148,8 +151,17 @@ class ScreenTest {
     double plane_offsets_[5] = {};
     Direction right_, up_, forward_;
     double near_m_, axis_rise_, corner_squared_, corner_cosine_, focal_squared_;
-    double enter_px_, full_px_, enter_squared_,
-        full_squared_;  // a vertex enters above the first and is at its own height from the second
+    // A vertex enters above the first and is at its own height from the second.
+    struct Limits {
+        double enter_px, full_px, enter_squared, full_squared;
+        Limits(double error_px, double morph)
+            : enter_px(error_px / (1 + morph)),
+              full_px(error_px),
+              enter_squared(enter_px * enter_px),
+              full_squared(full_px * full_px) {}
+    };
+    Limits far_, near_;
+    double near_depth_m_;
     bool morphs_;
     double error_m_[256];
     bool finest_error_is_zero_;

@@ -69,6 +69,12 @@ glm::mat4 rotation(const Camera& camera) {
     return matrix;
 }
 
+PartMap part_map(const Camera& camera, const Part& part) {
+    glm::dvec2 picture{camera.width_px, camera.height_px}, size{part.width_px, part.height_px};
+    glm::dvec2 first{part.left_px, double(camera.height_px) - part.top_px - part.height_px};  // its lower left corner, from there
+    return {picture / size, (picture - 2.0 * first - size) / size};
+}
+
 Result<Camera> parse_camera(std::string_view text) {
     std::vector<double> numbers;
     if (!parse_numbers(text, numbers) || numbers.size() < 5 || numbers.size() > 6)

@@ -10,6 +10,11 @@
 
 namespace overlook::view {
 
+// A rectangle of a camera's picture, in its pixels from the left and the top; it may reach beyond the picture.
+struct Part {
+    uint32_t left_px = 0, top_px = 0, width_px = 0, height_px = 0;
+};
+
 struct Camera {
     glm::dvec3 position_m{0};
     double heading_deg = 0;  // clockwise from +y (north)
@@ -35,6 +40,13 @@ double corner_secant(const Camera& camera);
 // Camera-relative projection with reversed depth (near = 1, infinity = 0); multiply positions minus position_m.
 glm::mat4 projection(const Camera& camera);
 glm::mat4 rotation(const Camera& camera);
+
+// What brings a part of the picture to the whole of a viewport: x, y of normalised device coordinates become scale * (x, y) +
+// shift. Exactly 1 and 0 for the part that is the whole picture.
+struct PartMap {
+    glm::dvec2 scale{1}, shift{0};
+};
+PartMap part_map(const Camera& camera, const Part& part);
 
 // "x,y,z,heading,pitch[,fov_y]" in metres and degrees. Fails with Exit::bad_command.
 Result<Camera> parse_camera(std::string_view text);

@@ -64,6 +64,23 @@ TEST(MeasuredCourse, IsTheSameEveryTime) {
     expect_same(once, again);
 }
 
+TEST(MeasuredCourse, OfThePapersLodSpriteTellsItsKeyframes) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills({"lod-sprite:paper@low-error-px=4@strips=1"}, {"key-error-px=0.01,1000"});
+    CourseResult once = hills.run(context->renderer()), again = hills.run(context->renderer());
+    ASSERT_EQ(once.runs.size(), 3u);
+    expect_same(once, again);
+    for (uint32_t frame = 0; frame < kFrames; ++frame) {
+        EXPECT_EQ(once.runs[0].frames[frame].counters.event_count, 1u) << frame;
+        EXPECT_EQ(once.runs[1].frames[frame].counters.event_count, frame == 0 ? 1u : 0u) << frame;
+    }
+    const Counters &key = once.runs[0].frames[1].counters, &novel = once.runs[1].frames[1].counters;
+    EXPECT_GT(key.triangle_count, 4 * novel.triangle_count);
+    EXPECT_EQ(key.draw_call_count, 4u);
+    EXPECT_EQ(novel.draw_call_count, 2u);
+    EXPECT_GT(novel.predicted_error_px, 0);
+}
+
 TEST(MeasuredCourse, IsTheSameWithKeptReferences) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     ScratchFolder cache;

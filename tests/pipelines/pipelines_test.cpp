@@ -31,6 +31,16 @@ TEST(Pipelines, CountAsManyStepsAsTheySay) {
     }
 }
 
+TEST(Pipelines, BenchBuildsWithItsPackageBeforeItMeasures) {
+    auto bench = shell::run("pipelines/bench --dry-run", kRoot);
+    EXPECT_EQ(bench.exit, 0) << bench.output;
+    size_t install = bench.output.find("install what is missing"), configure = bench.output.find("configure");
+    size_t build = bench.output.find("build"), measure = bench.output.find("measure: out/bench");
+    ASSERT_NE(measure, std::string::npos) << bench.output;
+    EXPECT_TRUE(install < configure && configure < build && build < measure) << bench.output;
+    EXPECT_TRUE(contains(shell::read_file(kRoot + "/pipelines/packages.txt"), "\nlibbenchmark-dev\n"));
+}
+
 TEST(Pipelines, RefuseAnOptionTheyDoNotKnow) {
     for (const char* pipeline : {"quickstart", "bench", "charts", "stability", "lod-sprite", "nightly", "set-up"}) {
         auto ran = shell::run(std::string("pipelines/") + pipeline + " --wrong", kRoot);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -52,6 +54,45 @@ size_t count_t_junctions(const Terrain& terrain, const Cut& cut) {
         if (x2 % 2 == 0 && y2 % 2 == 0) junctions += used.count(y2 / 2 * width + x2 / 2);
     }
     return junctions;
+}
+
+// Triangles as a set: each from its least vertex on.
+std::multiset<std::array<uint32_t, 3>> triangles_of(const Cut& cut) {
+    std::multiset<std::array<uint32_t, 3>> triangles;
+    for (size_t i = 0; i < cut.indices.size(); i += 3) {
+        std::array<uint32_t, 3> t{cut.indices[i], cut.indices[i + 1], cut.indices[i + 2]};
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        triangles.insert(t);
+    }
+    return triangles;
+}
+
+TEST(SlicedCut, HoldsWhatTheWholeCutHolds) {
+    Terrain terrain = baked(test::make_hills(129, 129, 3, 0.02));
+    Refiner refiner(terrain);
+    Cut whole, slice;
+    for (uint64_t seed = 0; seed < 20; ++seed) {
+        view::Camera camera = random_camera(terrain, seed);
+        double error_px = random_tolerance_px(seed);
+        refiner.cut_by_pixels(camera, error_px, whole);
+        SlicedCut sliced(refiner, camera, error_px);
+        std::multiset<std::array<uint32_t, 3>> triangles;
+        uint64_t slices = 0;
+        double share_before = 0;
+        while (!sliced.is_done()) {
+            sliced.next(100, slice);
+            EXPECT_TRUE(sliced.is_done() || slice.triangle_count() >= 100);
+            EXPECT_GE(sliced.share_done(), share_before);
+            share_before = sliced.share_done();
+            triangles.merge(triangles_of(slice));
+            ++slices;
+        }
+        EXPECT_EQ(sliced.share_done(), 1);
+        EXPECT_EQ(triangles, triangles_of(whole)) << seed;
+        if (whole.triangle_count() > 3000) {
+            EXPECT_GT(slices, 3u);
+        }
+    }
 }
 
 TEST(PixelCut, HasNoCrackForAnyCamera) {

@@ -32,8 +32,8 @@ TEST(Methods, AreNamedWithEverySetting) {
 }
 
 TEST(Methods, AreReadBackFromTheirLabels) {
-    for (const char* text :
-         {"terrain@error-px=0.5@samples=1@morph=0.25", "terrain:hard@error-px=2@samples=1", "full@samples=2"}) {
+    for (const char* text : {"terrain@error-px=0.5@samples=1@morph=0.25", "terrain:hard@error-px=2@samples=1", "full@samples=2",
+                             "lod-sprite:paper@error-px=1@low-error-px=8@depth-thickness=0.001@strips=1@samples=4"}) {
         Result<MethodSpec> spec = parse_method(text);
         ASSERT_TRUE(spec) << spec.error().message;
         EXPECT_EQ(label_of(*spec), text);
@@ -84,8 +84,8 @@ TEST(Methods, AreMeasuredOnceHoweverOftenAskedFor) {
 
 TEST(Methods, OfAWrongNameAreRefusedWithTheNearest) {
     EXPECT_EQ(refusal_of({"terain"}, {}),
-              "--method terain: there is no such method; did you mean terrain? (known: terrain, full)");
-    EXPECT_EQ(refusal_of({"xyzzyxyzzy"}, {}), "--method xyzzyxyzzy: there is no such method (known: terrain, full)");
+              "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, full)");
+    EXPECT_EQ(refusal_of({"xyzzyxyzzy"}, {}), "--method xyzzyxyzzy: there is no such method (known: terrain, lod-sprite, full)");
     EXPECT_EQ(refusal_of({""}, {}).substr(0, 31), "--method : there is no such met");
     EXPECT_EQ(refusal_of({"terrain:soft"}, {}), "--method terrain:soft: terrain has no such variant");
     EXPECT_EQ(refusal_of({"terrain:"}, {}), "--method terrain:: terrain has no such variant");

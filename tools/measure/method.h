@@ -53,8 +53,8 @@ struct MethodSpec {
     bool operator==(const MethodSpec&) const = default;
 };
 
-// "terrain:hard@error-px=2@samples=4": every setting, the defaults too (but for a budget of none); the name of a run in all
-// outputs.
+// "terrain:hard@error-px=2@samples=4": the name of a run in all outputs. Every setting, the defaults too (but for a budget of
+// none); of a method with more than four settings error-px, samples and those that are not the defaults.
 std::string label_of(const MethodSpec& spec);
 
 // "terrain:hard", or "terrain@triangles" for runs within a budget: all runs of one curve share it.

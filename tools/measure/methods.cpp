@@ -8,7 +8,10 @@
 #include <optional>
 
 #include "formats/names.h"
+#include "runtime/lod_sprite/paper_visibility.h"
 #include "runtime/terrain/refine.h"
+#include "tools/measure/lod_sprite_method.h"
+#include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -21,9 +24,35 @@ constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<MethodKind, 3> kKinds = {MethodKind{"terrain", "", kTerrainSettings},
-                                              MethodKind{"terrain", "hard", kHardSettings},
-                                              MethodKind{"full", "", kFullSettings}};
+constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
+                                                         SettingKind{"low-error-px", 0.01, 1000, 16, false},
+                                                         SettingKind{"key-error-px", 0.01, 1000, 1, false},
+                                                         SettingKind{"key-scale", 1, 4, 2, true},
+                                                         SettingKind{"guard", 1, 3, 1.15, false},
+                                                         SettingKind{"slots", 2, 16, 4, true},
+                                                         SettingKind{"fade-frames", 0, 60, 8, true},
+                                                         SettingKind{"sliced", 0, 1, 1, true},
+                                                         SettingKind{"near", 0, 1, 1, true},
+                                                         SettingKind{"tolerance-px", 0.05, 10, 0.5, false},
+                                                         SettingKind{"look-ups", 1, 16, 4, true},
+                                                         SettingKind{"outlines", 0, 1, 1, true},
+                                                         SettingKind{"slab-test", 0, 1, 1, true},
+                                                         SettingKind{"place-test", 0, 1, 1, true},
+                                                         SettingKind{"sources", 0, 1, 0, true},
+                                                         kSamples};
+constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
+    kErrorPx,
+    SettingKind{"low-error-px", 0.01, 1000, 16, false},
+    SettingKind{"key-error-px", 0.001, 1000, 1, false},
+    SettingKind{"drawn-plane", 0, 1, 0, true},
+    SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false},
+    SettingKind{"eye-depth", 0, 1, 0, true},
+    SettingKind{"strips", 0, 1, 0, true},
+    kSamples};
+constexpr std::array<MethodKind, 5> kKinds = {
+    MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
+    MethodKind{"lod-sprite", "", kSpriteSettings}, MethodKind{"lod-sprite", "paper", kSpritePaperSettings},
+    MethodKind{"full", "", kFullSettings}};
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -148,6 +177,11 @@ Result<std::vector<Asked>> swept(const std::vector<Asked>& methods, std::string_
     return all;
 }
 
+// "terrain:hard".
+std::string named(const MethodSpec& spec) {
+    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
+}
+
 }  // namespace
 
 std::span<const MethodKind> method_kinds() {
@@ -155,15 +189,20 @@ std::span<const MethodKind> method_kinds() {
 }
 
 std::string family_of(const MethodSpec& spec) {
-    std::string family = spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
-    return budget_of(spec) > 0 ? family + "@" + std::string(kTriangles.name) : family;
+    return budget_of(spec) > 0 ? named(spec) + "@" + std::string(kTriangles.name) : named(spec);
 }
 
 std::string label_of(const MethodSpec& spec) {
-    std::string label = family_of(spec);
+    // Of a method with many settings those that are as they are anyway go without saying.
+    auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+                             [&](const MethodKind& one) { return one.name == spec.name && one.variant == spec.variant; });
+    bool says_all = kind == kKinds.end() || kind->settings.size() <= 4;
+    std::string label = named(spec);
     for (const auto& [name, value] : spec.settings) {
         bool is_no_budget = name == kTriangles.name && value == 0;
-        if (!is_no_budget) label += fmt::format("@{}={}", name, value);
+        bool is_usual = !says_all && kind->settings[place_of(*kind, name)].otherwise == value;
+        bool is_said = !is_usual || name == kErrorPx.name || name == kSamples.name;
+        if (!is_no_budget && is_said) label += fmt::format("@{}={}", name, value);
     }
     return label;
 }
@@ -220,6 +259,8 @@ double morph_of(const MethodSpec& spec) {
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
+    if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
+    if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     assert(spec.name == "terrain");
     return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));
 }

@@ -25,7 +25,7 @@ struct MethodKind {
 std::span<const MethodKind> method_kinds();  // the default variant of each method before its others
 
 // Reads "NAME[:variant][@setting=value]...". Fails with Exit::bad_command:
-//   "--method terain: there is no such method; did you mean terrain? (known: terrain, full)"
+//   "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, full)"
 //   "--method terrain:soft: terrain has no such variant"
 //   "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?"
 //   "--method terrain:hard@morph=1: terrain:hard has no setting morph"

@@ -67,10 +67,11 @@ void add_options(CLI::App& app, Options& options) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--size", options.size, "Size of the pictures in pixels")->type_name("WxH")->capture_default_str();
-    app.add_option("--method", options.methods,
-                   "NAME[:variant][@setting=value]...: terrain (settings error-px, samples, triangles, morph), terrain:hard, "
-                   "whose levels pop "
-                   "(error-px, samples), full (samples); may be repeated")
+    app.add_option(
+           "--method", options.methods,
+           "NAME[:variant][@setting=value]...: terrain (settings error-px, samples, triangles, morph), terrain:hard, whose levels "
+           "pop (error-px, samples), lod-sprite:paper, as published (error-px of keyframes, low-error-px, key-error-px, "
+           "depth-thickness, eye-depth, strips, samples), full (samples); may be repeated")
         ->type_name("METHOD")
         ->required()
         ->expected(1)

@@ -1,12 +1,12 @@
 #include "tools/measure/reference.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "formats/mapped_file.h"
 #include "runtime/terrain/draw_shaders.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/reference_cache.h"
-#include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
 namespace {
@@ -16,7 +16,8 @@ std::string hash_of(const std::string& text) {
 }
 
 std::string shaders_hash() {
-    return hash_of(std::string(terrain::shaders::kTerrainVertex) + terrain::shaders::kAir + terrain::shaders::kTerrainFragment +
+    return hash_of(std::string(terrain::shaders::kTerrainVertexInputs) + terrain::shaders::kUnmoved +
+                   terrain::shaders::kTerrainVertexMain + terrain::shaders::kAir + terrain::shaders::kTerrainFragment +
                    terrain::shaders::kShadedMain + terrain::shaders::kSkyVertex + terrain::shaders::kSkyFragment);
 }
 
@@ -33,36 +34,61 @@ std::string bits_of(const view::Camera& camera) {
     return bits + fmt::format("{} {}\n", camera.width_px, camera.height_px);
 }
 
+// The width of as few equal columns as make up `whole`, none wider than `most`; the last may be cut off by less than there are
+// columns.
+uint32_t even_share(uint32_t whole, uint32_t most) {
+    uint32_t count = (whole + most - 1) / most;
+    return (whole + count - 1) / count;
+}
+
+// Puts a part of a picture where it belongs; what reaches beyond the frame is left out.
+void copy_into(Frame& frame, const ImageRgb8& part, uint32_t left_px, uint32_t top_px) {
+    uint32_t columns = std::min(part.width, frame.width - left_px), rows = std::min(part.height, frame.height - top_px);
+    for (uint32_t row = 0; row < rows; ++row) {
+        const uint8_t* from = part.pixels.data() + size_t(row) * part.width * 3;
+        std::copy_n(from, size_t(columns) * 3, frame.rgb.data() + (size_t(top_px + row) * frame.width + left_px) * 3);
+    }
+}
+
 }  // namespace
 
 Result<ReferenceRenderer> ReferenceRenderer::make(World& world, const gl::Renderer& renderer, uint32_t width_px,
-                                                  uint32_t height_px, std::string cache_folder) {
-    Result<gl::Target> large = gl::Target::make(width_px * kSupersampling, height_px * kSupersampling, 1);
-    if (!large) return impossible("the reference is drawn at {} times the size: {}", kSupersampling, large.error().message);
+                                                  uint32_t height_px, std::string cache_folder, uint32_t part_px) {
     Result<gl::Target> middle = gl::Target::make(width_px, height_px, 1);
     if (!middle) return tl::unexpected(middle.error());
+    uint32_t part_width_px = even_share(width_px, part_px), part_height_px = even_share(height_px, part_px);
+    Result<gl::Target> large = gl::Target::make(part_width_px * kSupersampling, part_height_px * kSupersampling, 1);
+    if (!large) return tl::unexpected(large.error());
 
-    ReferenceRenderer made(std::move(*large), std::move(*middle));
-    made.full_ = make_full_method(world);
+    ReferenceRenderer made(world, std::move(*large), std::move(*middle));
     made.cache_folder_ = std::move(cache_folder);
-    made.identity_ =
-        fmt::format("reference {} x {}\n{}\n{}\n{}\n{}\n{}{}", kSupersampling, kSupersampling, world.content_hash, renderer.name,
-                    renderer.version, shaders_hash(), bits_of(world.look.haze), bits_of(double(world.look.anisotropy)));
+    made.identity_ = fmt::format("reference {} x {} in parts of {} x {}\n{}\n{}\n{}\n{}\n{}{}", kSupersampling, kSupersampling,
+                                 part_width_px, part_height_px, world.content_hash, renderer.name, renderer.version,
+                                 shaders_hash(), bits_of(world.look.haze), bits_of(double(world.look.anisotropy)));
     return made;
 }
 
 Frame ReferenceRenderer::drawn(const view::Camera& camera) {
     ++drawn_count_;
-    full_->decide(camera, 0);
-    full_->draw(middle_);
+    world_->drawing->draw(middle_, full_, camera, world_->look);
     Frame frame = captured(middle_, middle_, camera);
     view::Camera large_camera = camera;
     large_camera.width_px *= kSupersampling;
     large_camera.height_px *= kSupersampling;
-    full_->decide(large_camera, 0);
-    full_->draw(large_);
-    frame.rgb = box_filtered(large_.read(), kSupersampling).pixels;
+    for (uint32_t top_px = 0; top_px < large_camera.height_px; top_px += large_.height_px()) {
+        for (uint32_t left_px = 0; left_px < large_camera.width_px; left_px += large_.width_px()) {
+            ImageRgb8 small = part_of(large_camera, {left_px, top_px, large_.width_px(), large_.height_px()});
+            copy_into(frame, small, left_px / kSupersampling, top_px / kSupersampling);
+        }
+    }
     return frame;
+}
+
+ImageRgb8 ReferenceRenderer::part_of(const view::Camera& large_camera, const view::Part& part) {
+    terrain::DrawOptions options = world_->look;
+    options.part = part;
+    world_->drawing->draw(large_, full_, large_camera, options);
+    return box_filtered(large_.read(), kSupersampling);
 }
 
 Result<Frame> ReferenceRenderer::frame(const view::Camera& camera) {

@@ -6,24 +6,27 @@
 
 #include "runtime/gl/context.h"
 #include "tools/measure/frame.h"
-#include "tools/measure/method.h"
+#include "tools/measure/terrain_method.h"
 #include "tools/measure/world.h"
 
 namespace overlook::measure {
 
 constexpr uint32_t kSupersampling = 4;  // a side: 16 samples a pixel
+// Pictures wider or higher are drawn in parts, as few as do and all of one size. It decides the last bits of a picture, and so is
+// the same for every renderer: OpenGL 4.5 has targets of kSupersampling times this size everywhere.
+constexpr uint32_t kReferencePartPx = 1536;
 
 // Draws references: full geometry at 4 x 4 times the pixels, averaged in linear light, with the look of the methods and depth and
-// ids of the pixels' middles. With a folder given, each frame is kept there under a name made from the content of all that
-// decides it (scene, camera to the bit, size, shaders, renderer, version), and is taken from there the next time.
+// ids of the pixels' middles. What it holds for the 4 x 4 pixels is bounded, whatever the picture's size. With a folder given,
+// each frame is kept there under a name made from the content of all that decides it (scene, camera to the bit, size, shaders,
+// renderer, version), and is taken from there the next time.
 class ReferenceRenderer {
   public:
-    // cache_folder: made already; empty = keep nothing. The world must be uploaded and outlive this. Fails with Exit::impossible
-    // if the renderer cannot draw pictures 4 times as wide and high:
-    // "the reference is drawn at 4 times the size: pictures of 20000 x 80 pixels are too large for this renderer (16384 at
-    // most)".
+    // cache_folder: made already; empty = keep nothing. part_px: the most pixels of a part, each way, 1 .. kReferencePartPx. The
+    // world must be uploaded and outlive this. Fails with Exit::impossible if the renderer cannot draw pictures of the size:
+    // "pictures of 20000 x 80 pixels are too large for this renderer (16384 at most)".
     static Result<ReferenceRenderer> make(World& world, const gl::Renderer& renderer, uint32_t width_px, uint32_t height_px,
-                                          std::string cache_folder);
+                                          std::string cache_folder, uint32_t part_px = kReferencePartPx);
 
     // A kept frame that does not have its right checksum is drawn anew and replaced. Fails with Exit::cannot_write.
     Result<Frame> frame(const view::Camera& camera);
@@ -33,11 +36,15 @@ class ReferenceRenderer {
     uint64_t damaged_count() const { return damaged_count_; }  // kept frames that were refused
 
   private:
-    ReferenceRenderer(gl::Target large, gl::Target middle) : large_(std::move(large)), middle_(std::move(middle)) {}
+    ReferenceRenderer(World& world, gl::Target large, gl::Target middle)
+        : world_(&world), large_(std::move(large)), middle_(std::move(middle)), full_(full_cut(world)) {}
     Frame drawn(const view::Camera& camera);
+    ImageRgb8 part_of(const view::Camera& large_camera, const view::Part& part);
 
-    gl::Target large_, middle_;
-    std::unique_ptr<Method> full_;
+    World* world_;
+    gl::Target large_;   // of one part
+    gl::Target middle_;  // of the picture
+    terrain::Cut full_;
     std::string cache_folder_, identity_;
     uint64_t drawn_count_ = 0, kept_count_ = 0, damaged_count_ = 0;
 };

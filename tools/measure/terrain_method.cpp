@@ -51,11 +51,7 @@ class Refined : public Method {
 
 class Full : public Method {
   public:
-    explicit Full(World& world) : world_(world) {
-        world.refiner->cut_by_metres(kSplitAll_m, cut_);
-        cut_.tested_count = 0;  // nothing is decided from frame to frame
-        cut_.predicted_error_px = 0;
-    }
+    explicit Full(World& world) : world_(world), cut_(full_cut(world)) {}
 
     void decide(const view::Camera& camera, uint32_t) override { camera_ = camera; }
     Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
@@ -70,6 +66,14 @@ class Full : public Method {
 
 std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudget& budget, double morph) {
     return std::make_unique<Refined>(world, budget, morph);
+}
+
+terrain::Cut full_cut(const World& world) {
+    terrain::Cut cut;
+    world.refiner->cut_by_metres(kSplitAll_m, cut);
+    cut.tested_count = 0;  // nothing is decided from frame to frame
+    cut.predicted_error_px = 0;
+    return cut;
 }
 
 std::unique_ptr<Method> make_full_method(World& world) {

@@ -15,6 +15,7 @@ namespace overlook::measure {
 std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudget& budget, double morph);
 
 // Every triangle of the raster, whether in view or not.
+terrain::Cut full_cut(const World& world);
 std::unique_ptr<Method> make_full_method(World& world);
 
 }  // namespace overlook::measure

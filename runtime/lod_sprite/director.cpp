@@ -1,0 +1,214 @@
+#include "runtime/lod_sprite/director.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace overlook::lod_sprite {
+namespace {
+
+constexpr uint32_t kHurriedSlices = 6;  // of a key that is missing
+constexpr uint32_t kLeastSlices = 4;
+constexpr double kRest = 0.7;         // a key whose error keeps under this share of the limit as far as one can see may rest
+constexpr double kMostLost = 0.3;     // of the frame: a key that has less to show is not looked into
+constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
+constexpr double kFillWeight = 1.0 / 1024;
+constexpr double kUnkeyedFiner = 4;    // without a key the coarse cut keeps low_error_px over this
+constexpr uint64_t kLeastSlice = 512;  // triangles
+
+}  // namespace
+
+Director::Director(const terrain::Refiner& refiner, const Settings& settings)
+    : refiner_(refiner), settings_(settings), slots_(settings.slots) {
+    assert(settings.slots >= 2);
+}
+
+void Director::forget() {
+    for (Slot& slot : slots_) slot.is_whole = false;
+    current_.reset(), before_.reset(), making_.reset();
+    fade_left_ = 0;
+    track_.forget();
+}
+
+Reuse Director::reuse(uint32_t slot, const view::Camera& camera) const {
+    return reuse_of(slots_[slot].key, camera, settings_.low_error_px);
+}
+
+bool Director::serves(const Reuse& reuse) const {
+    return reuse.error_p99_px <= settings_.key_error_px && reuse.magnification_p99 <= settings_.most_magnified;
+}
+
+// A key from the cache, where the one in use no longer serves and another does: going to and fro costs nothing.
+void Director::judge_keys() {
+    if (!current_) return;
+    current_reuse_ = reuse(*current_, camera_);
+    if (serves(current_reuse_)) return;
+    for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
+        if (slot == *current_ || !slots_[slot].is_whole || (making_ && making_->slot == slot)) continue;
+        Reuse other = reuse(slot, camera_);
+        if (!serves(other)) continue;
+        before_ = current_;
+        current_ = slot;
+        current_reuse_ = other;
+        fade_left_ = settings_.fade_frames;
+        return;
+    }
+}
+
+// How many frames the key in use will go on to serve if the camera goes on as it does; most_slices if for long.
+uint32_t Director::frames_left() const {
+    if (!current_ || !serves(current_reuse_)) return 0;
+    uint32_t left = 0;
+    for (uint32_t frames = 2; frames <= settings_.most_slices; frames = std::max(frames + 1, frames * 3 / 2)) {
+        if (!serves(reuse(*current_, track_.predicted(frames)))) return std::max(left, kLeastSlices);
+        left = frames;
+    }
+    return settings_.most_slices;
+}
+
+Cause Director::cause_now() const {
+    if (!current_) return Cause::first;
+    if (current_reuse_.lost_share() > kMostLost) return Cause::jump;
+    if (current_reuse_.magnification_p99 > settings_.most_magnified) return Cause::magnified;
+    return current_reuse_.outside_share > current_reuse_.opened_share ? Cause::turned : Cause::error;
+}
+
+// The place of the key that would serve the camera least, none of those in use.
+uint32_t Director::slot_to_empty() const {
+    uint32_t worst = 0;
+    double worst_error = -1;
+    for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
+        if (!slots_[slot].is_whole) return slot;
+        bool is_used = (current_ && *current_ == slot) || (before_ && *before_ == slot && slots_.size() > 2);
+        if (is_used) continue;
+        Reuse found = reuse(slot, camera_);
+        double error = found.error_p99_px + 1000 * found.lost_share();
+        if (error > worst_error) {
+            worst = slot;
+            worst_error = error;
+        }
+    }
+    return worst;
+}
+
+void Director::begin_key(const view::Camera& pose, Cause cause) {
+    uint32_t slot = slot_to_empty();
+    if (before_ && *before_ == slot) before_.reset();
+    Slot& into = slots_[slot];
+    into.is_whole = false;
+    into.cause = cause;
+    into.key.camera = key_camera(pose, settings_.guard);
+    into.key.scale = settings_.scale;
+    into.key.error_px = settings_.error_px;
+    making_.emplace();
+    making_->slot = slot;
+    making_->cause = cause;
+    making_->cut.emplace(refiner_, into.key.camera, settings_.error_px);
+}
+
+uint64_t Director::slice_triangles() const {
+    if (settings_.mode == KeyMode::at_once) return std::numeric_limits<uint64_t>::max();
+    if (expected_triangles_ == 0) return 32 * kLeastSlice;
+    uint32_t left = current_ ? std::max(frames_left(), kHurriedSlices) : kHurriedSlices;
+    uint64_t drawn = making_->drawn_triangles;
+    uint64_t rest = expected_triangles_ > drawn ? expected_triangles_ - drawn : expected_triangles_ / left;
+    return std::max(kLeastSlice, rest / left);
+}
+
+std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
+    if (is_begun_) return std::nullopt;
+    is_begun_ = true;
+    camera_ = camera;
+    track_.add(camera);
+    slice_triangles_ = 0;
+    took_over_ = Cause::none;
+    judge_keys();
+
+    bool is_served = current_ && serves(current_reuse_);
+    if (making_ && !is_served) {
+        // The paper's rule for a prediction that went wrong: use it where it is nearer than the old key, else begin anew.
+        const view::Camera& aim = slots_[making_->slot].key.camera;
+        double aim_off_m = glm::length(aim.position_m - camera.position_m);
+        double old_off_m = current_ ? glm::length(slots_[*current_].key.camera.position_m - camera.position_m) : aim_off_m;
+        double speed_m = track_.speed_m() * settings_.most_slices;
+        bool is_wrong = aim_off_m > old_off_m && aim_off_m > 2 * speed_m;
+        if (is_wrong) making_.reset();
+    }
+    if (!making_) {
+        if (settings_.mode == KeyMode::at_once) {
+            if (is_served) return std::nullopt;
+            begin_key(camera, cause_now());
+        } else {
+            uint32_t left = frames_left();
+            if (left >= settings_.most_slices && current_reuse_.error_p99_px <= kRest * settings_.key_error_px)
+                return std::nullopt;
+            uint32_t slices = left == 0 ? kHurriedSlices : std::max(left, kHurriedSlices);
+            begin_key(track_.predicted(1.5 * slices), is_served ? Cause::error : cause_now());
+        }
+    }
+    uint64_t wanted = slice_triangles();
+    making_->cut->next(wanted, slice_);
+    slice_triangles_ = slice_.triangle_count();
+    making_->drawn_triangles += slice_triangles_;
+    KeyWork work;
+    work.slot = making_->slot;
+    if (!making_->is_begun) work.begin = &slots_[making_->slot].key.camera;
+    making_->is_begun = true;
+    work.slice = &slice_;
+    work.is_last = making_->cut->is_done();
+    return work;
+}
+
+void Director::key_done(DepthGrid depths) {
+    assert(making_);
+    Slot& slot = slots_[making_->slot];
+    slot.key.depths = std::move(depths);
+    slot.is_whole = true;
+    slot.triangle_count = expected_triangles_ = making_->drawn_triangles;
+    ++keys_made_;
+    Reuse made = reuse(making_->slot, camera_);
+    // One that came out worse than what is at hand waits in the cache.
+    if (!current_ || settings_.mode == KeyMode::at_once || made.error_p99_px <= current_reuse_.error_p99_px || serves(made)) {
+        before_ = current_;
+        current_ = making_->slot;
+        current_reuse_ = made;
+        fade_left_ = before_ ? settings_.fade_frames : 0;
+        took_over_ = making_->cause;
+    }
+    making_.reset();
+}
+
+const Novel& Director::novel() {
+    is_begun_ = false;
+    novel_.keys.clear();
+    novel_.rekeyed = took_over_;
+    novel_.near_depth_m = 0;
+    bool has_key = current_ && current_reuse_.lost_share() <= kMostLost;
+    novel_.error_p99_px = has_key ? current_reuse_.error_p99_px : settings_.low_error_px / kUnkeyedFiner;
+    novel_.error_max_px = has_key ? current_reuse_.error_max_px : settings_.low_error_px / kUnkeyedFiner;
+    novel_.lost_share = has_key ? current_reuse_.lost_share() : 1;
+    terrain::PixelDetail detail{settings_.low_error_px, settings_.morph};
+    if (!has_key) {
+        detail.error_px /= kUnkeyedFiner;
+    } else {
+        if (settings_.draws_near) {
+            double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
+            novel_.near_depth_m = track_.speed_m() * settings_.most_slices / (most_growth - 1);
+            detail.near_depth_m = novel_.near_depth_m;
+            detail.near_error_px = settings_.error_px;
+        }
+        double fade = settings_.fade_frames > 0 ? double(fade_left_) / settings_.fade_frames : 0;
+        novel_.keys.push_back({*current_, std::max(1 - fade, kFillWeight)});
+        bool fills = fade_left_ > 0 || current_reuse_.lost_share() > kFillWorth;
+        if (before_ && slots_[*before_].is_whole && fills) novel_.keys.push_back({*before_, std::max(fade, kFillWeight)});
+        if (fade_left_ > 0) --fade_left_;
+    }
+    novel_.is_fine = !has_key;
+    refiner_.cut_by_pixels(camera_, detail, low_);
+    novel_.cut = &low_;
+    return novel_;
+}
+
+}  // namespace overlook::lod_sprite

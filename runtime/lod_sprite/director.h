@@ -1,0 +1,119 @@
+// When a key is made, for which pose and in what slices, and which keys a frame looks into. No OpenGL here: a plan comes out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "runtime/lod_sprite/pose_track.h"
+#include "runtime/lod_sprite/reuse.h"
+#include "runtime/terrain/refine.h"
+
+namespace overlook::lod_sprite {
+
+enum class KeyMode {
+    at_once,  // in the frame that needs it, for that frame's own pose
+    sliced,   // over the frames before, for a predicted pose
+};
+
+struct Settings {
+    double error_px = 1;          // the promise of the fine cut, which keys show
+    double low_error_px = 16;     // of the coarse cut of novel frames
+    double key_error_px = 1;      // a new key is due where the p99 of the bounded error passes error_px times this
+    double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
+    double guard = 1.15;
+    uint32_t scale = 2;  // texels of a key a pixel, in both directions
+    uint32_t slots = 4;  // keys kept, the one being made among them; at least 2
+    uint32_t most_slices = 48;
+    uint32_t fade_frames = 8;  // over which a new key takes over from the old; 0 = at once
+    double morph = 0.5;        // of the coarse cut (terrain::Refiner::cut_by_pixels)
+    KeyMode mode = KeyMode::sliced;
+    bool draws_near = true;  // what keys could not serve for their life is drawn as geometry
+};
+
+// Why a key is made.
+enum class Cause { none, first, jump, error, magnified, turned };
+
+// What is to be drawn into a key before the novel frame.
+struct KeyWork {
+    uint32_t slot = 0;
+    const view::Camera* begin = nullptr;  // not null: the slot is emptied for this camera first
+    const terrain::Cut* slice = nullptr;  // what to add to it
+    bool is_last = false;                 // the key is whole then; Director::key_done() is to be told
+};
+
+struct NovelUse {
+    uint32_t slot = 0;
+    double weight = 1;
+};
+
+// What a novel frame is made of.
+struct Novel {
+    const terrain::Cut* cut = nullptr;
+    std::vector<NovelUse> keys;
+    double near_depth_m = 0;
+    bool is_fine = false;                       // the cut keeps error_px everywhere: no key is there to be used
+    double error_p99_px = 0, error_max_px = 0;  // bounded, over the pixels
+    double lost_share = 0;                      // predicted
+    Cause rekeyed = Cause::none;                // why the key that took over with this frame was made
+};
+
+class Director {
+  public:
+    // The refiner must outlive it.
+    Director(const terrain::Refiner& refiner, const Settings& settings);
+
+    // Each frame: key_work() until it gives none, each carried out at once; then novel(). The camera's size must stay the same,
+    // or forget() be called. The pointers hold until the next call.
+    std::optional<KeyWork> key_work(const view::Camera& camera);
+    void key_done(DepthGrid depths);
+    const Novel& novel();
+    void forget();
+
+    const Settings& settings() const { return settings_; }
+    uint64_t keys_made() const { return keys_made_; }
+    uint64_t key_triangles() const { return slice_triangles_; }  // of this frame's key work
+
+  private:
+    struct Slot {
+        bool is_whole = false;
+        Key key;
+        Cause cause = Cause::none;
+        uint64_t triangle_count = 0;
+    };
+    struct Making {
+        uint32_t slot = 0;
+        Cause cause = Cause::none;
+        bool is_begun = false;
+        uint64_t drawn_triangles = 0;
+        std::optional<terrain::SlicedCut> cut;
+    };
+
+    void judge_keys();
+    Reuse reuse(uint32_t slot, const view::Camera& camera) const;
+    bool serves(const Reuse& reuse) const;
+    uint32_t frames_left() const;
+    Cause cause_now() const;
+    void begin_key(const view::Camera& pose, Cause cause);
+    uint32_t slot_to_empty() const;
+    uint64_t slice_triangles() const;
+
+    const terrain::Refiner& refiner_;
+    Settings settings_;
+    PoseTrack track_;
+    view::Camera camera_;
+    bool is_begun_ = false;  // this frame
+    std::vector<Slot> slots_;
+    std::optional<uint32_t> current_, before_;  // the key in use, and the one that it fades in over
+    uint32_t fade_left_ = 0;
+    std::optional<Making> making_;
+    Reuse current_reuse_;
+    uint64_t expected_triangles_ = 0;  // of a key
+    uint64_t keys_made_ = 0, slice_triangles_ = 0;
+    bool was_last_ = false;
+    Cause took_over_ = Cause::none;
+    terrain::Cut slice_, low_;
+    Novel novel_;
+};
+
+}  // namespace overlook::lod_sprite

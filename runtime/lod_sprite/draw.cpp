@@ -1,0 +1,168 @@
+#include "runtime/lod_sprite/draw.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <string>
+
+#include "runtime/lod_sprite/draw_shaders.h"
+
+namespace overlook::lod_sprite {
+namespace {
+
+constexpr GLuint kColourUnit = gl::kFirstFreeUnit, kDepthUnit = 8;
+
+gl::Texture make_texture(GLenum format, uint32_t width_px, uint32_t height_px) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &id);
+    glTextureStorage2D(id, 1, format, GLsizei(width_px), GLsizei(height_px));
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return gl::Texture(id);
+}
+
+glm::vec3 as_floats(const glm::dvec3& v) {
+    return glm::vec3(v);
+}
+
+}  // namespace
+
+Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots) {
+    Painter made;
+    made.sprites_.resize(slots);
+    Result<gl::Program> key = surface.program({"key", "", shaders::kKeyMain});
+    if (!key) return tl::unexpected(key.error());
+    made.key_program_ = std::move(*key);
+    return made;
+}
+
+Result<void> Painter::begin_key(uint32_t slot, const view::Camera& camera, uint32_t scale) {
+    Sprite& sprite = sprites_[slot];
+    uint32_t width_px = camera.width_px * scale, height_px = camera.height_px * scale;
+    if (sprite.width_px != width_px || sprite.height_px != height_px) {
+        GLint most_px = 0;
+        glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+        if (std::max(width_px, height_px) > uint32_t(most_px)) {
+            return impossible("a key of {} x {} pixels is too large for this renderer ({} at most)", width_px, height_px,
+                              most_px);
+        }
+        sprite.colour = make_texture(GL_SRGB8_ALPHA8, width_px, height_px);
+        sprite.depth = make_texture(GL_DEPTH_COMPONENT32F, width_px, height_px);
+        GLuint id = 0;
+        glCreateFramebuffers(1, &id);
+        sprite.framebuffer = gl::Framebuffer(id);
+        glNamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, sprite.colour.id(), 0);
+        glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, sprite.depth.id(), 0);
+        if (glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+            return impossible("this renderer cannot draw keys of {} x {} pixels", width_px, height_px);
+        }
+        sprite.width_px = width_px;
+        sprite.height_px = height_px;
+    }
+    sprite.camera = camera;
+    const GLfloat farthest = 0, black[4] = {0, 0, 0, 0};
+    glClearNamedFramebufferfv(sprite.framebuffer.id(), GL_DEPTH, 0, &farthest);
+    glClearNamedFramebufferfv(sprite.framebuffer.id(), GL_COLOR, 0, black);
+    return {};
+}
+
+void Painter::draw_into_key(uint32_t slot, gl::Surface& surface) {
+    const Sprite& sprite = sprites_[slot];
+    gl::bind_for_drawing(sprite.framebuffer.id(), sprite.width_px, sprite.height_px);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    key_program_.use();
+    surface.draw(key_program_, sprite.camera);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
+DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
+    const Sprite& sprite = sprites_[slot];
+    std::vector<float> all(size_t(sprite.width_px) * sprite.height_px);
+    glGetTextureImage(sprite.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(all.size() * sizeof(float)), all.data());
+    DepthGrid grid{(sprite.width_px + step - 1) / step, (sprite.height_px + step - 1) / step, {}};
+    grid.depth_m.reserve(size_t(grid.width) * grid.height);
+    for (uint32_t y = 0; y < sprite.height_px; y += step)
+        for (uint32_t x = 0; x < sprite.width_px; x += step) {
+            float inverse = all[size_t(sprite.height_px - 1 - y) * sprite.width_px + x];
+            grid.depth_m.push_back(inverse > 0 ? float(sprite.camera.near_m) / inverse : std::numeric_limits<float>::infinity());
+        }
+    return grid;
+}
+
+Result<const gl::Program*> Painter::novel_program(const gl::Surface& surface, const NovelOptions& options) {
+    uint32_t keys = uint32_t(options.keys.size());
+    uint32_t name = keys + 8 * options.iterations + (options.shows_sources ? 1 << 16 : 0);
+    auto known = novel_programs_.find(name);
+    if (known == novel_programs_.end()) {
+        std::string settings = fmt::format("#define KEYS {}\n#define ITERATIONS {}\n{}", std::max(keys, 1u), options.iterations,
+                                           options.shows_sources ? "#define SHOWS_SOURCES\n" : "");
+        Result<gl::Program> made =
+            surface.program({fmt::format("novel view with {} keys", keys), std::string(shaders::kSlack) + shaders::kRaised,
+                             settings + shaders::kSlack + shaders::kNovelMain});
+        if (!made) return tl::unexpected(made.error());
+        known = novel_programs_.emplace(name, std::move(*made)).first;
+    }
+    return &known->second;
+}
+
+void Painter::set_keys(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const {
+    for (size_t i = 0; i < options.keys.size(); ++i) {
+        const Sprite& sprite = sprites_[options.keys[i].slot];
+        Link link = link_of(sprite.camera, camera);
+        glm::mat3 rotation(link.key_from_world);
+        auto at = [&](const char* uniform) { return program.at(fmt::format("{}[{}]", uniform, i).c_str()); };
+        glUniformMatrix3fv(at("key_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
+        glUniform3fv(at("eye_in_key_m"), 1, glm::value_ptr(as_floats(link.eye_m)));
+        glUniform2f(at("key_tangents"), float(link.tangents.x), float(link.tangents.y));
+        glUniform1f(at("key_near_m"), float(sprite.camera.near_m));
+        glUniform1f(at("key_weights"), float(options.keys[i].weight));
+        glBindTextureUnit(kColourUnit + GLuint(i), sprite.colour.id());
+        glBindTextureUnit(kDepthUnit + GLuint(i), sprite.depth.id());
+    }
+    glm::vec3 forward = as_floats(view::axes_of(camera).forward);
+    glUniform3fv(program.at("eye_forward"), 1, glm::value_ptr(forward));
+    glUniform1f(program.at("focal_px"), float(view::focal_px(camera)));
+    glUniform1f(program.at("near_m"), float(camera.near_m));
+    glUniform1f(program.at("low_error_px"), float(options.low_error_px));
+    glUniform1f(program.at("near_error_px"), float(options.near_error_px));
+    // Without a key everything is near.
+    glUniform1f(program.at("near_depth_m"),
+                options.keys.empty() ? std::numeric_limits<float>::max() : float(options.near_depth_m));
+    glUniform1f(program.at("most_slack_m"), float(options.most_slack_m));
+    glUniform1f(program.at("raise"), options.raises && !options.keys.empty() ? 1.0f : 0.0f);
+    glUniform1f(program.at("tolerance_px"), float(options.tolerance_px));
+    glUniform1i(program.at("is_slab_tested"), options.tests_slab);
+    glUniform1i(program.at("is_place_tested"), options.tests_places);
+}
+
+Result<void> Painter::draw(const gl::Target& target, gl::Surface& surface, const view::Camera& camera,
+                           const NovelOptions& options) {
+    assert(options.keys.size() <= kMostKeysAtOnce && options.iterations >= 1);
+    Result<const gl::Program*> program = novel_program(surface, options);
+    if (!program) return tl::unexpected(program.error());
+    target.bind();
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    surface.draw_background(camera);
+    (*program)->use();
+    set_keys(**program, camera, options);
+    bool raises = options.raises && !options.keys.empty();
+    // A ray that leaves the raised surface has been through it.
+    if (raises) glEnable(GL_CULL_FACE);
+    surface.draw(**program, camera);
+    glDisable(GL_CULL_FACE);
+    target.resolve();
+    return {};
+}
+
+uint64_t Painter::resident_bytes() const {
+    uint64_t bytes = 0;
+    for (const Sprite& sprite : sprites_) bytes += uint64_t(sprite.width_px) * sprite.height_px * 8;
+    return bytes;
+}
+
+}  // namespace overlook::lod_sprite

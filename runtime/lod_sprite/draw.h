@@ -1,0 +1,76 @@
+// Drawing with sprites: keys kept in textures, novel frames that look their pixels up in them. What and when, the deciding half
+// says (runtime/lod_sprite/director.h); the thing drawn is any gl::Surface.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "runtime/gl/objects.h"
+#include "runtime/gl/program.h"
+#include "runtime/gl/surface.h"
+#include "runtime/gl/target.h"
+#include "runtime/lod_sprite/key.h"
+
+namespace overlook::lod_sprite {
+
+constexpr uint32_t kMostKeysAtOnce = 3;
+
+// A key that a frame looks into.
+struct KeyUse {
+    uint32_t slot = 0;
+    double weight = 1;  // among those that show a pixel
+};
+
+// What a novel frame is drawn with.
+struct NovelOptions {
+    std::vector<KeyUse> keys;  // at most kMostKeysAtOnce
+    double low_error_px = 16;  // the promise of the coarse cut
+    double near_error_px = 1;  // of what is nearer than near_depth_m, which is drawn without sprites
+    double near_depth_m = 0;
+    double most_slack_m = 1e9;  // no surface is farther than that from its coarse form
+    double tolerance_px = 0.5;  // how far from its place a key's texel may be shown
+    uint32_t iterations = 4;    // look-ups a pixel and key, at least 1
+    bool raises = true;         // the coarse surface up to where it covers the true one, so that outlines are kept
+    bool tests_slab = true;     // what a key shows must lie where the coarse surface allows it
+    bool tests_places = true;   // a texel counts only where it is in its own place in this frame
+    bool shows_sources = false;
+};
+
+// Draws into keys and novel frames. A context must be current whenever it is used, and when it goes.
+class Painter {
+  public:
+    // slots: how many keys are kept. Fails with Exit::our_bug where a shader does not compile.
+    static Result<Painter> make(const gl::Surface& surface, uint32_t slots);
+
+    // Empties a slot for a key of this camera, whose picture has camera.width_px * scale columns. Fails with Exit::impossible
+    // where the renderer cannot have such a picture.
+    Result<void> begin_key(uint32_t slot, const view::Camera& camera, uint32_t scale);
+    // Adds what the surface draws now, as the key's camera sees it.
+    void draw_into_key(uint32_t slot, gl::Surface& surface);
+    // The key's depths (metres along its axis, infinity = nothing), every `step`-th texel of every `step`-th row, from the top.
+    DepthGrid read_depth(uint32_t slot, uint32_t step) const;
+
+    // Draws a novel frame, background and all, and resolves it. Keys must be whole.
+    Result<void> draw(const gl::Target& target, gl::Surface& surface, const view::Camera& camera, const NovelOptions& options);
+
+    uint64_t resident_bytes() const;
+
+  private:
+    struct Sprite {
+        view::Camera camera;
+        uint32_t width_px = 0, height_px = 0;
+        gl::Texture colour, depth;
+        gl::Framebuffer framebuffer;
+    };
+    Result<const gl::Program*> novel_program(const gl::Surface& surface, const NovelOptions& options);
+    void set_keys(const gl::Program& program, const view::Camera& camera, const NovelOptions& options) const;
+
+    std::vector<Sprite> sprites_;
+    gl::Program key_program_;
+    std::map<uint32_t, gl::Program> novel_programs_;  // by keys, iterations and what is shown
+};
+
+}  // namespace overlook::lod_sprite

@@ -1,0 +1,150 @@
+#include "runtime/lod_sprite/reuse.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace overlook::lod_sprite {
+namespace {
+
+constexpr double kSteepest = 1.35;  // depths of neighbours in the grid farther apart than that are a step
+constexpr int kRaysASide = 12;      // that are asked whether the key saw what is there
+constexpr size_t kErrorSteps = 256;
+constexpr double kErrorBase = 1.05;  // of the logarithmic steps in which errors are counted
+
+// A point of the key in the camera's picture: pixels from the middle, and depth.
+struct Seen {
+    double x = 0, y = 0, depth = -1;
+};
+
+class Projector {
+  public:
+    Projector(const Key& key, const view::Camera& camera) : camera_(camera), focal_px_(view::focal_px(camera)) {
+        Link back = link_of(camera, key.camera);  // from the key into the camera
+        Link own = link_of(key.camera, key.camera);
+        turn_ = back.key_from_world * glm::transpose(own.key_from_world);
+        eye_ = back.eye_m;
+        tangents_ = own.tangents;
+    }
+    // share: 0..1 over the key's picture, from the top left.
+    Seen operator()(double share_x, double share_y, double depth_m) const {
+        glm::dvec3 ray{(2 * share_x - 1) * tangents_.x, (1 - 2 * share_y) * tangents_.y, 1};
+        glm::dvec3 at = std::isfinite(depth_m) ? eye_ + turn_ * (ray * depth_m) : turn_ * ray;
+        if (at.z <= 1e-9) return {};
+        return {focal_px_ * at.x / at.z, focal_px_ * at.y / at.z, at.z};
+    }
+
+  private:
+    const view::Camera& camera_;
+    double focal_px_;
+    glm::dmat3 turn_;
+    glm::dvec3 eye_;
+    glm::dvec2 tangents_;
+};
+
+// Errors by the area that has them.
+class Histogram {
+  public:
+    void add(double error_px, double area) {
+        double step = std::ceil(std::log(std::max(error_px, kLeast_px) / kLeast_px) / std::log(kErrorBase));
+        areas_[size_t(std::min(step, double(kErrorSteps - 1)))] += area;
+        sum_ += area;
+        greatest_px_ = std::max(greatest_px_, error_px);
+    }
+    double percentile(double share) const {
+        double below = 0;
+        for (size_t i = 0; i < kErrorSteps; ++i) {
+            below += areas_[i];
+            if (below >= share * sum_) return kLeast_px * std::pow(kErrorBase, double(i));
+        }
+        return greatest_px_;
+    }
+    double greatest_px() const { return greatest_px_; }
+
+  private:
+    static constexpr double kLeast_px = 0.01;
+    std::array<double, kErrorSteps> areas_{};
+    double sum_ = 0, greatest_px_ = 0;
+};
+
+bool is_in_frame(const view::Camera& camera, const Seen& at) {
+    return at.depth > 0 && std::abs(at.x) <= camera.width_px / 2.0 && std::abs(at.y) <= camera.height_px / 2.0;
+}
+
+// The share of the camera's rays that leave what the key saw, for surfaces at the depths that the key holds.
+double outside_share_of(const Key& key, const view::Camera& camera) {
+    std::vector<float> depths;
+    for (size_t i = 0; i < key.depths.depth_m.size(); i += 7)
+        if (std::isfinite(key.depths.depth_m[i])) depths.push_back(key.depths.depth_m[i]);
+    double middle_m = std::numeric_limits<double>::infinity();
+    if (!depths.empty()) {
+        std::nth_element(depths.begin(), depths.begin() + ptrdiff_t(depths.size() / 2), depths.end());
+        middle_m = depths[depths.size() / 2];
+    }
+    Link link = link_of(key.camera, camera);
+    view::Axes axes = view::axes_of(camera);
+    double focal_px = view::focal_px(camera);
+    int outside = 0;
+    for (int j = 0; j < kRaysASide; ++j)
+        for (int i = 0; i < kRaysASide; ++i) {
+            double x = ((i + 0.5) / kRaysASide - 0.5) * camera.width_px / focal_px;
+            double y = ((j + 0.5) / kRaysASide - 0.5) * camera.height_px / focal_px;
+            glm::dvec3 ray = link.key_from_world * (axes.forward + x * axes.right + y * axes.up);
+            glm::dvec3 at = std::isfinite(middle_m) ? link.eye_m + middle_m * ray : ray;
+            bool is_seen = at.z > 0 && std::abs(at.x) <= link.tangents.x * at.z && std::abs(at.y) <= link.tangents.y * at.z;
+            outside += !is_seen;
+        }
+    return double(outside) / (kRaysASide * kRaysASide);
+}
+
+}  // namespace
+
+Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px) {
+    const DepthGrid& grid = key.depths;
+    Projector project(key, camera);
+    std::vector<Seen> seen(grid.depth_m.size());
+    for (uint32_t y = 0; y < grid.height; ++y)
+        for (uint32_t x = 0; x < grid.width; ++x) {
+            size_t at = size_t(y) * grid.width + x;
+            seen[at] = project((x + 0.5) / grid.width, (y + 0.5) / grid.height, grid.depth_m[at]);
+        }
+
+    double frame_area = double(camera.width_px) * camera.height_px;
+    double cell_area = double(key.camera.width_px) * key.camera.height_px / (double(grid.width) * grid.height);
+    Reuse reuse;
+    Histogram errors, magnifications;
+    double opened = 0;
+    for (uint32_t y = 0; y + 1 < grid.height; ++y)
+        for (uint32_t x = 0; x + 1 < grid.width; ++x) {
+            size_t at = size_t(y) * grid.width + x;
+            const Seen &a = seen[at], &b = seen[at + 1], &c = seen[at + grid.width], &d = seen[at + grid.width + 1];
+            if (a.depth <= 0 || b.depth <= 0 || c.depth <= 0 || d.depth <= 0) continue;
+            if (!is_in_frame(camera, a) && !is_in_frame(camera, d)) continue;
+            float depths[4] = {grid.depth_m[at], grid.depth_m[at + 1], grid.depth_m[at + grid.width],
+                               grid.depth_m[at + grid.width + 1]};
+            auto [nearest, farthest] = std::minmax_element(depths, depths + 4);
+            // Right-handed as the key saw it: y goes down the grid and up the picture.
+            double area = ((d.x - a.x) * (b.y - c.y) - (d.y - a.y) * (b.x - c.x)) / 2;
+            if (!std::isfinite(*nearest)) continue;  // sky
+            if (!(*farthest <= kSteepest * *nearest)) {
+                opened += std::clamp(area - cell_area, 0.0, 64 * cell_area);
+                continue;
+            }
+            if (area <= 0) continue;  // turned away by now
+            double magnification = std::sqrt(area / cell_area);
+            double key_depth = (depths[0] + depths[3]) / 2.0, depth = (a.depth + d.depth) / 2;
+            errors.add(key.error_px * key_depth / depth, area);
+            magnifications.add(magnification / key.scale, area);
+        }
+    reuse.opened_share = std::min(1.0, opened / frame_area);
+    reuse.outside_share = outside_share_of(key, camera);
+    errors.add(fallback_error_px, reuse.lost_share() * frame_area);
+    reuse.magnification_p99 = magnifications.percentile(0.99);
+    reuse.error_p99_px = errors.percentile(0.99);
+    reuse.error_max_px = errors.greatest_px();
+    return reuse;
+}
+
+}  // namespace overlook::lod_sprite

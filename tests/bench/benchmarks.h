@@ -1,0 +1,16 @@
+// All benchmarks, by room; each file says what it counts as work and as the least bytes that must move.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace overlook::bench {
+
+void add_bake(const std::string& landscape);
+void add_files(const std::string& landscape, const std::string& folder);
+void add_refinement(const std::string& landscape);
+void add_view();
+// side_px: of the pictures.
+void add_numbers(uint32_t side_px);
+
+}  // namespace overlook::bench
