@@ -23,9 +23,17 @@ std::string name_of(const Words& verb) {
     return verb.size() == 1 ? verb[0] : verb[0] + " " + verb[1];
 }
 
-const std::vector<Words> kVerbs = {{"bake-lod", "terrain"}, {"baked", "info"},      {"baked", "verify"}, {"baked", "diff"},
-                                   {"baked", "export"},     {"make-sample", "dem"}, {"player"}};
-const std::vector<Words> kCommands = {{"bake-lod"}, {"baked"}, {"make-sample"}, {"measure"}, {"player"}, {"stability"}};
+const std::vector<Words> kVerbs = {{"bake-lod", "terrain"},
+                                   {"baked", "info"},
+                                   {"baked", "verify"},
+                                   {"baked", "diff"},
+                                   {"baked", "export"},
+                                   {"make-sample", "dem"},
+                                   {"make-sample", "lod-sprite"},
+                                   {"reproduce", "lod-sprite"},
+                                   {"player"}};
+const std::vector<Words> kCommands = {{"bake-lod"}, {"baked"},     {"make-sample"}, {"measure"},
+                                      {"player"},   {"reproduce"}, {"stability"}};
 
 // Of every option and argument something is said: after its name in the column of descriptions, or on the next line.
 void expect_described(const std::string& help) {
@@ -74,7 +82,7 @@ TEST(CommandLine, RefusesAnUnknownOptionAndKnowsTheNearest) {
 }
 
 TEST(CommandLine, RefusesAMissingOrUnknownVerb) {
-    for (const char* command : {"bake-lod", "baked", "make-sample"}) {
+    for (const char* command : {"bake-lod", "baked", "make-sample", "reproduce"}) {
         expect_refusal(run({command}), 2, command, {"a verb is wanted: "});
         expect_refusal(run({command, "frobnicate"}), 2, command, {"\"frobnicate\" is not one of its verbs: "});
     }

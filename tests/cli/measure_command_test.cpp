@@ -107,6 +107,19 @@ TEST_F(Measure, ByTheWallClockLeavesAPageToo) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out/cache"));
 }
 
+TEST_F(Measure, WithoutNumbersDrawsNoReferenceAndNoFloor) {
+    Ran ran = run(words({"--method", "terrain", "--numbers", "none", "--json"}));
+    if (ran.exit == 5) GTEST_SKIP() << "no renderer: " << ran.err;
+    expect_done(ran);
+    auto report = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(report["runs"].size(), 1u);
+    EXPECT_EQ(report["clock"], "logical");
+    EXPECT_EQ(report["references"]["drawn"], 0);
+    EXPECT_FALSE(report["runs"][0]["summary"].contains("e_p99_flip"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out/cache"));
+    expect_refused(words({"--method", "terrain", "--numbers", "some"}), 2, {"--numbers", "some"});
+}
+
 TEST_F(Measure, TakesKeysInPlaceOfAFlight) {
     Ran ran = run({"measure", baked_, "--camera", "300,-1500,900,0,-30", "--camera", "330,-1480,900,2,-30", "--frames", "4",
                    "--size", "64x64", "--method", "full@samples=1", "--out", folder_ / "out"});

@@ -286,6 +286,49 @@ TEST(MeasuredCourse, SeesABrokenPromiseOfTheFile) {
     EXPECT_FALSE(gate->is_kept());
 }
 
+// With 23 frames.
+Hills long_flight(Compared compared) {
+    Hills hills({"terrain@samples=1"}, {});
+    for (uint32_t frame = kFrames; frame < 23; ++frame) {
+        hills.course.cameras.push_back(hills.course.cameras.back());
+        hills.course.cameras.back().position_m.y += 3.0;
+    }
+    hills.course.compared = compared;
+    return hills;
+}
+
+TEST(MeasuredCourse, InPairsHasTheNumbersOfAllOnEveryTenthFrameAndTheNext) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills of_pairs = long_flight(Compared::pairs), of_all = long_flight(Compared::all);
+    CourseResult pairs = of_pairs.run(context->renderer()), all = of_all.run(context->renderer());
+    EXPECT_EQ(pairs.references_drawn, 6u);
+    EXPECT_EQ(all.references_drawn, 23u);
+    for (size_t run = 0; run < all.runs.size(); ++run) {
+        for (uint32_t frame = 0; frame < 23; ++frame) {
+            const Numbers &some = pairs.runs[run].frames[frame].numbers, &every = all.runs[run].frames[frame].numbers;
+            EXPECT_EQ(pairs.runs[run].frames[frame].counters, all.runs[run].frames[frame].counters);
+            EXPECT_EQ(some.psnr_db, frame % 10 < 2 ? every.psnr_db : std::nullopt) << frame;
+            EXPECT_EQ(some.e_p99, frame % 10 == 0 ? every.e_p99 : std::nullopt) << frame;
+            EXPECT_EQ(some.w, frame % 10 == 1 ? every.w : std::nullopt) << frame;
+            EXPECT_TRUE(every.psnr_db);
+        }
+    }
+}
+
+TEST(MeasuredCourse, ComparedWithNothingHasCountersAloneAndNeedsNoFloor) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills = long_flight(Compared::none), of_all = long_flight(Compared::all);
+    hills.course.specs.pop_back();
+    CourseResult none = hills.run(context->renderer()), all = of_all.run(context->renderer());
+    ASSERT_EQ(none.runs.size(), 1u);
+    EXPECT_EQ(none.runs[0].floor, 0u);
+    EXPECT_EQ(none.references_drawn, 0u);
+    for (uint32_t frame = 0; frame < 23; ++frame) {
+        EXPECT_EQ(none.runs[0].frames[frame].counters, all.runs[0].frames[frame].counters);
+        EXPECT_FALSE(none.runs[0].frames[frame].numbers.psnr_db);
+    }
+}
+
 TEST(MeasuredCourse, ByTheWallClockHasTimesAlone) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills({"terrain"}, {});

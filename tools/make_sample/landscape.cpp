@@ -32,16 +32,17 @@ double map_position(uint32_t i, uint32_t side) {
     return double(i) / double(side - 1) * (1 + 2 * kMarginShare) - kMarginShare;
 }
 
-// 0 in the plain (south-west), 1 in the range (north-east), along a front that wanders.
-double mountain_share(uint64_t seed, double u, double v) {
+// 0 in the plain, 1 in the range, along fronts that wander.
+double mountain_share(Relief relief, uint64_t seed, double u, double v) {
     double bend = 0.22 * fractal_noise(seed + 100, u * 2.1, v * 2.1, 3);
+    if (relief == Relief::between) return 1.00 - 2.5 * std::abs(v - 0.62 + 0.1 * (u - 0.5)) + bend;
     return 0.58 * u + 0.74 * (1 - v) - 0.06 + bend;
 }
 
-void lay_ground(Ground& ground, uint64_t seed, double extent_m, size_t cell) {
+void lay_ground(Ground& ground, Relief relief, uint64_t seed, double extent_m, size_t cell) {
     uint32_t side = ground.uplift_m.side;
     double u = map_position(uint32_t(cell % side), side), v = map_position(uint32_t(cell / side), side);
-    double share = mountain_share(seed, u, v);
+    double share = mountain_share(relief, seed, u, v);
 
     // Bend the plane before looking up the massifs.
     double km = extent_m / 1000, x = u * km, y = v * km;
@@ -51,22 +52,25 @@ void lay_ground(Ground& ground, uint64_t seed, double extent_m, size_t cell) {
     double hills = smooth_step(-0.1, 0.5, fractal_noise(seed + 500, wx / 6, wy / 6, 2));
 
     double range = smooth_step(0.28, 0.86, share);
-    double foreland = smooth_step(0.02, 0.30, share);
-    ground.uplift_m.values[cell] = 2.5 + 42 * foreland * hills + 640 * range * (0.16 + 0.84 * massif);
+    // Plains on either side are a little hilly up to their edges, and rivers cut them.
+    bool is_between = relief == Relief::between;
+    double foreland = is_between ? 1 : smooth_step(0.02, 0.30, share);
+    double plain_uplift_m = is_between ? 26 : 2.5;
+    ground.uplift_m.values[cell] = plain_uplift_m + 42 * foreland * hills + 640 * range * (0.16 + 0.84 * massif);
     ground.softness.values[cell] = 1 + 0.9 * fractal_noise(seed + 600, wx / 2, wy / 2, 5);
     double hardness = smooth_step(-0.25, 0.45, fractal_noise(seed + 700, wx / 1.3, wy / 1.3, 6));
     ground.slope_limit.values[cell] = 0.70 + range * (kSteepest - 0.70) * hardness;
-    ground.soil.values[cell] = 1 - 0.85 * smooth_step(0.25, 0.6, share);
+    ground.soil.values[cell] = (is_between ? 0.3 : 1) - (is_between ? 0.15 : 0.85) * smooth_step(0.25, 0.6, share);
     bool is_low_edge = ground.uplift_m.is_border(cell) && share < 0.26;
     ground.is_outlet[cell] = is_low_edge;
 }
 
-Ground make_ground(uint64_t seed, uint32_t side, double cell_m) {
+Ground make_ground(Relief relief, uint64_t seed, uint32_t side, double cell_m) {
     Grid empty(side, cell_m);
     Ground ground{empty, empty, empty, empty, std::vector<uint8_t>(empty.values.size())};
     double extent_m = cell_m * (side - 1) / (1 + 2 * kMarginShare);
     parallel_ranges(empty.values.size(), 1 << 13, [&](size_t begin, size_t end) {
-        for (size_t cell = begin; cell < end; ++cell) lay_ground(ground, seed, extent_m, cell);
+        for (size_t cell = begin; cell < end; ++cell) lay_ground(ground, relief, seed, extent_m, cell);
     });
     // The plain's corner always lets the water out.
     ground.is_outlet[size_t(side - 1) * side] = 1;
@@ -96,13 +100,13 @@ Grid refine(const Grid& coarse, uint32_t side, double cell_m, uint64_t seed) {
 }
 
 // Uplift against rivers, from a coarse grid to the finest: main valleys first.
-Grid grow_range(uint64_t seed, uint32_t side, double cell_m, Ground& ground) {
+Grid grow_range(Relief relief, uint64_t seed, uint32_t side, double cell_m, Ground& ground) {
     std::vector<uint32_t> sides = {side};
     while (sides.back() > kCoarsestSide) sides.push_back(sides.back() / 2 + 1);
     Grid height_m;
     for (size_t level = sides.size(); level-- > 0;) {
         double level_cell_m = cell_m * double(side - 1) / double(sides[level] - 1);
-        ground = make_ground(seed, sides[level], level_cell_m);
+        ground = make_ground(relief, seed, sides[level], level_cell_m);
         bool is_first = height_m.values.empty();
         height_m =
             is_first ? Grid(sides[level], level_cell_m, kBaseM) : refine(height_m, sides[level], level_cell_m, seed + level);
@@ -122,7 +126,7 @@ Grid grow_range(uint64_t seed, uint32_t side, double cell_m, Ground& ground) {
 }
 
 // Deepens the trunk valley where it leaves the range, as a glacier would; filled to its brim it is a lake.
-void dig_lake(Grid& height_m, const Ground& ground, uint64_t seed) {
+void dig_lake(Grid& height_m, const Ground& ground, Relief relief, uint64_t seed) {
     Drainage drainage = drain(height_m, ground.is_outlet, 0, 0);
     std::vector<double> area_m2 = drained_area_m2(drainage, height_m.cell_m);
     uint32_t side = height_m.side;
@@ -130,7 +134,7 @@ void dig_lake(Grid& height_m, const Ground& ground, uint64_t seed) {
     double best_area_m2 = 0;
     for (size_t cell = 0; cell < area_m2.size(); ++cell) {
         double u = map_position(uint32_t(cell % side), side), v = map_position(uint32_t(cell / side), side);
-        double share = mountain_share(seed, u, v);
+        double share = mountain_share(relief, seed, u, v);
         bool is_in_front = share > 0.36 && share < 0.46 && u > 0.2 && u < 0.8 && v > 0.2 && v < 0.8;
         if (!is_in_front || area_m2[cell] <= best_area_m2) continue;
         best_area_m2 = area_m2[cell];
@@ -188,10 +192,10 @@ Landscape make_landscape(const LandscapeOptions& options) {
     uint64_t seed = hash_of(options.seed, 1, 2) >> 1;
     uint32_t margin = uint32_t(double(options.side) * kMarginShare);
     Ground ground;
-    Grid height_m = grow_range(seed, options.side + 2 * margin, options.cell_size_m, ground);
+    Grid height_m = grow_range(options.relief, seed, options.side + 2 * margin, options.cell_size_m, ground);
 
     widen_valleys(height_m, ground.is_outlet, 2.5e6, 75);
-    dig_lake(height_m, ground, seed);
+    dig_lake(height_m, ground, options.relief, seed);
     roughen_slopes(height_m, options.cell_size_m * (options.side - 1), seed);
 
     Grid creep = ground.soil;

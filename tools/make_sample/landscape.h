@@ -1,4 +1,4 @@
-// A generated landscape: a mountain range lifted over a foreland with hills, a plain and a lake, and worn
+// A generated landscape: a mountain range lifted over a foreland with hills, a plain and a lake, or between two plains, and worn
 // down by rivers.
 #pragma once
 
@@ -11,10 +11,16 @@ constexpr uint32_t kLeastSide = 33;
 constexpr uint32_t kGreatestSide = 4097;
 constexpr double kHeightStepM = 1.0 / 32;  // every height is a multiple of it
 
+enum class Relief {
+    front,    // a plain in the south-west, the range in the north-east
+    between,  // a range from west to east, the wider plain north of it and the narrower one south
+};
+
 struct LandscapeOptions {
     uint64_t seed = 1;
     uint32_t side = 1025;     // samples a side, kLeastSide..kGreatestSide
     double cell_size_m = 30;  // 1..1000
+    Relief relief = Relief::front;
 };
 
 // height_m: [side, side] row-major, north first. Every sample drains: filling its depressions from the border

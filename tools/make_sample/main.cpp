@@ -3,6 +3,7 @@
 
 #include "runtime/command/command.h"
 #include "tools/make_sample/sample_dem.h"
+#include "tools/make_sample/sample_lod_sprite.h"
 
 namespace {
 
@@ -25,6 +26,21 @@ int make_dem(const sample::DemOptions& options, const std::string& folder, const
     return int(Exit::done);
 }
 
+int make_lod_sprite(const sample::LodSpriteOptions& options, const std::string& folder, const command::Common& common) {
+    Result<sample::LodSpriteReport> report = sample::make_lod_sprite(options, folder);
+    if (!report) return command::fail("make-sample lod-sprite", report.error());
+
+    for (const std::string& file : report->files) command::note(common, "wrote " + file);
+    command::detail(common,
+                    fmt::format("{} samples a side, {:.1f}..{:.1f} m high", options.side, report->lowest_m, report->highest_m));
+    if (common.json) {
+        nlohmann::ordered_json json = {
+            {"files", report->files}, {"size", options.side}, {"lowest_m", report->lowest_m}, {"highest_m", report->highest_m}};
+        fmt::print("{}\n", json.dump(2));
+    }
+    return int(Exit::done);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,7 +57,19 @@ int main(int argc, char** argv) {
     dem->add_option("--voids", options.void_count, "Holes without data to dig")->capture_default_str();
     command::add_common(*dem, common, command::Uses::seed);
 
+    sample::LodSpriteOptions lod_sprite_options;
+    CLI::App* lod_sprite = app.add_subcommand(
+        "lod-sprite",
+        "The LOD-sprite paper's run: dem.tif, texture.ppm, recipe.toml, scene.json, flight.json, run.json (thresholds, views)");
+    lod_sprite->add_option("-o,--output", folder, "Folder to write into")->required();
+    lod_sprite->add_option("--size", lod_sprite_options.side, "Samples a side")->capture_default_str();
+    command::add_common(*lod_sprite, common, command::Uses::seed);
+
     return command::run(app, common, argc, argv, [&] {
+        if (lod_sprite->parsed()) {
+            lod_sprite_options.seed = common.seed;
+            return make_lod_sprite(lod_sprite_options, folder, common);
+        }
         options.landscape.seed = common.seed;
         return make_dem(options, folder, common);
     });

@@ -207,6 +207,22 @@ bool has_honesty(const CourseResult& course) {
 
 }  // namespace
 
+std::string chart_head() {
+    return kHead;
+}
+
+std::string gnuplot_text(const std::string& text) {
+    return quoted(text);
+}
+
+int frames_column(std::string_view figure_name) {
+    return std::stoi(column_of(figure_name));
+}
+
+std::string chart_colour(size_t place) {
+    return kColours[place % kColours.size()];
+}
+
 std::vector<Chart> charts_of(const CourseResult& course) {
     std::vector<Chart> charts;
     if (has_pictures(course)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/result.h"
@@ -14,6 +15,15 @@ struct Chart {
     std::string title;
     std::string script;  // gnuplot's, with relative paths: run it in charts/ to draw it again
 };
+
+// What every chart's script begins with: the terminal of its form, the look of axes and grid.
+std::string chart_head();
+// A text as gnuplot takes it.
+std::string gnuplot_text(const std::string& text);
+// Which column of frames.csv a figure is in, as gnuplot counts them.
+int frames_column(std::string_view figure_name);
+// Colours that the colour-blind tell apart, by turns.
+std::string chart_colour(size_t place);
 
 // What can be drawn of the run: the front of cost against error in milliseconds and in triangles, steadiness and time over the
 // flight, the distribution of errors, promised against measured pixels. Without pictures (wall clock) only the times.

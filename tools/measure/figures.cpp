@@ -23,7 +23,7 @@ std::optional<double> of_g(R record, Value value) {
     return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
 }
 
-constexpr std::array<Figure, 24> kFigures = {{
+constexpr std::array<Figure, 26> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -45,6 +45,10 @@ constexpr std::array<Figure, 24> kFigures = {{
     {"tested", "places looked at to decide", [](R r) -> O { return double(r.counters.tested_count); }, true},
     {"resident_bytes", "in the renderer's memory", [](R r) -> O { return double(r.counters.resident_bytes); }, true},
     {"events", "sudden changes that the method knows of", [](R r) -> O { return double(r.counters.event_count); }, true},
+    {"key_triangles", "of the triangles, those drawn into keyframes",
+     [](R r) -> O { return double(r.counters.key_triangle_count); }, true},
+    {"key_pixels", "of keyframes, drawn besides the picture's own", [](R r) -> O { return double(r.counters.key_pixel_count); },
+     true},
     {"predicted_error_px", "what the method promises of this frame", [](R r) -> O { return r.counters.predicted_error_px; },
      true},
     {"g_max", "measured over predicted displacement of a thing drawn, greatest",

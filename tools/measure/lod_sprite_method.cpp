@@ -21,6 +21,7 @@ lod_sprite::Settings settings_of(const MethodSpec& spec) {
     settings.slots = uint32_t(setting(spec, "slots"));
     settings.fade_frames = uint32_t(setting(spec, "fade-frames"));
     settings.mode = setting(spec, "sliced") != 0 ? lod_sprite::KeyMode::sliced : lod_sprite::KeyMode::at_once;
+    settings.morph = setting(spec, "morph");
     settings.draws_near = setting(spec, "near") != 0;
     return settings;
 }
@@ -79,10 +80,13 @@ class LodSprite : public Method {
             if (work_->begin != nullptr) {
                 [[maybe_unused]] Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
                 assert(begun);
+                counters_.key_pixel_count =
+                    uint64_t(work_->begin->width_px) * work_->begin->height_px * settings_.scale * settings_.scale;
             }
             surface_.take(*work_->slice);
             surface_.take_range({});
             painter_->draw_into_key(work_->slot, surface_);
+            counters_.key_triangle_count = work_->slice->triangle_count();
             counters_.triangle_count += work_->slice->triangle_count();
             counters_.vertex_reference_count += work_->slice->indices.size();
             counters_.tested_count += work_->slice->tested_count;

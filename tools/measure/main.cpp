@@ -42,7 +42,8 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     Result<Route> route = route_from(options, *read);
     if (!route) return tl::unexpected(route.error());
     std::string cache_folder = options.out + "/cache";
-    if (Result<void> made = make_folder(options.wall_clock ? options.out : cache_folder); !made) return made;
+    bool is_compared = compared_from(options) != Compared::none;
+    if (Result<void> made = make_folder(is_compared ? cache_folder : options.out); !made) return made;
 
     Result<gl::Context> context = gl::Context::headless();
     if (!context) return tl::unexpected(context.error());
@@ -50,8 +51,8 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     World world = std::move(*read);  // goes before the context
     if (Result<void> uploaded = upload(world); !uploaded) return uploaded;
 
-    Course course{std::move(*specs), route->cameras, route->step_s};
-    add_floors(course.specs);
+    Course course{std::move(*specs), route->cameras, route->step_s, compared_from(options)};
+    if (is_compared || options.wall_clock) add_floors(course.specs);
     command::Progress progress(common, "measuring");
     auto done = [&](double share) { progress.set(share); };
     Result<CourseResult> result = options.wall_clock ? run_by_wall_clock(world, course, done)

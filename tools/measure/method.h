@@ -20,9 +20,11 @@ struct Counters {
     uint64_t vertex_reference_count = 0;  // indices (or vertices, where there are none) submitted
     uint64_t draw_call_count = 0;
     uint64_t uploaded_bytes = 0;
-    uint64_t tested_count = 0;    // places looked at to decide
-    uint64_t resident_bytes = 0;  // in the renderer's memory while the frame is drawn
-    uint64_t event_count = 0;     // sudden changes that the method knows of: a new keyframe, a level exchanged at once
+    uint64_t tested_count = 0;        // places looked at to decide
+    uint64_t resident_bytes = 0;      // in the renderer's memory while the frame is drawn
+    uint64_t event_count = 0;         // sudden changes that the method knows of: a new keyframe, a level exchanged at once
+    uint64_t key_triangle_count = 0;  // of the triangles, those drawn into keyframes
+    uint64_t key_pixel_count = 0;     // of keyframes, drawn besides the picture's own
     double predicted_error_px = 0;
 
     bool operator==(const Counters&) const = default;

@@ -24,7 +24,7 @@ constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
+constexpr std::array<SettingKind, 17> kSpriteSettings = {kErrorPx,
                                                          SettingKind{"low-error-px", 0.01, 1000, 16, false},
                                                          SettingKind{"key-error-px", 0.01, 1000, 1, false},
                                                          SettingKind{"key-scale", 1, 4, 2, true, true},
@@ -33,6 +33,7 @@ constexpr std::array<SettingKind, 16> kSpriteSettings = {kErrorPx,
                                                          SettingKind{"fade-frames", 0, 60, 8, true, true},
                                                          SettingKind{"sliced", 0, 1, 1, true, true},
                                                          SettingKind{"near", 0, 1, 1, true, true},
+                                                         SettingKind{"morph", 0, 1, 0, false, true},
                                                          SettingKind{"tolerance-px", 0.05, 10, 0.5, false, true},
                                                          SettingKind{"look-ups", 1, 16, 2, true, true},
                                                          SettingKind{"outlines", 0, 1, 1, true, true},
@@ -44,10 +45,10 @@ constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
     kErrorPx,
     SettingKind{"low-error-px", 0.01, 1000, 16, false},
     SettingKind{"key-error-px", 0.001, 1000, 1, false},
-    SettingKind{"drawn-plane", 0, 1, 0, true},
-    SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false},
-    SettingKind{"eye-depth", 0, 1, 0, true},
-    SettingKind{"strips", 0, 1, 0, true},
+    SettingKind{"drawn-plane", 0, 1, 0, true, true},
+    SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false, true},
+    SettingKind{"eye-depth", 0, 1, 0, true, true},
+    SettingKind{"strips", 0, 1, 0, true, true},
     kSamples};
 constexpr std::array<MethodKind, 5> kKinds = {
     MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},

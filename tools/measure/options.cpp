@@ -83,7 +83,14 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--frames", options.frames,
                    "Frames to measure, spread over the whole flight; default as many as it has, 600 between keys")
         ->type_name("N");
-    app.add_flag("--wall-clock", options.wall_clock, "Fly by the wall clock: frame times and counters only");
+    app.add_option("--numbers", options.numbers,
+                   "Which frames are held against the reference: all; pairs (every tenth and the one after it, and those round "
+                   "events); none (times and counters only)")
+        ->check(CLI::IsMember({"all", "pairs", "none"}))
+        ->type_name("WHICH")
+        ->capture_default_str();
+    app.add_flag("--wall-clock", options.wall_clock, "Fly by the wall clock: frame times and counters only")
+        ->excludes("--numbers");
     app.add_option("--out", options.out, "Folder for the tables, charts and the page; made if it is not there")
         ->type_name("DIR")
         ->required();
@@ -96,6 +103,11 @@ Result<void> parse_size(std::string_view text, uint32_t& width_px, uint32_t& hei
         return bad_command("--size {}: WIDTHxHEIGHT is wanted, each from 1 to {}", text, kMostPixelsASide);
     }
     return {};
+}
+
+Compared compared_from(const Options& options) {
+    if (options.wall_clock || options.numbers == "none") return Compared::none;
+    return options.numbers == "pairs" ? Compared::pairs : Compared::all;
 }
 
 Result<Route> route_from(const Options& options, const World& world) {

@@ -9,6 +9,7 @@
 #include "formats/result.h"
 #include "runtime/command/command.h"
 #include "tools/measure/method.h"
+#include "tools/measure/run.h"
 #include "tools/measure/world.h"
 
 namespace overlook::measure {
@@ -20,6 +21,7 @@ struct Options {
     std::vector<std::string> methods, sweeps;
     uint32_t frames = 0;  // 0 = as many as the flight has at the logical step
     bool wall_clock = false;
+    std::string numbers = "all";  // all, pairs or none: Compared
     std::string out;
 };
 
@@ -27,6 +29,9 @@ void add_options(CLI::App& app, Options& options);
 
 // "WIDTHxHEIGHT", each 1..8192. Fails with Exit::bad_command.
 Result<void> parse_size(std::string_view text, uint32_t& width_px, uint32_t& height_px);
+
+// Of one of --numbers's words.
+Compared compared_from(const Options& options);
 
 // A camera for every frame.
 struct Route {

@@ -41,7 +41,7 @@ std::string what_was_run(const PageInput& input) {
     html += row("Frames", setup.is_wall_clock ? std::string("as many as the wall clock left time for")
                                               : fmt::format("{} of {} x {} pixels, {} s apart on the logical clock", frames,
                                                             setup.width_px, setup.height_px, short_number(setup.step_s)));
-    if (!setup.is_wall_clock) {
+    if (input.course.runs.front().worst_e.is_there) {
         html += row("Reference", fmt::format("full geometry, {0} x {0} supersampled, averaged in linear light", kSupersampling));
         html += row("E", fmt::format("LDR-FLIP, {} pixels per degree, on {} of the frames", kPixelsPerDegree,
                                      values_of(input.course.runs.front(), figure("e_p99_flip")).size()));

@@ -102,12 +102,12 @@ class Field {
     }
 };
 
+// A run without one, which nothing compares, is its own.
 void find_floors(std::vector<RunResult>& results) {
     for (RunResult& result : results) {
         MethodSpec floor = floor_spec(setting(result.spec, "samples"));
         auto found = std::find_if(results.begin(), results.end(), [&](const RunResult& one) { return one.spec == floor; });
-        assert(found != results.end());
-        result.floor = size_t(found - results.begin());
+        result.floor = size_t((found == results.end() ? results.begin() + (&result - results.data()) : found) - results.begin());
     }
 }
 
@@ -116,40 +116,99 @@ void take_e(const Frame& test, const Frame& reference, FrameRecord& record, Wors
     if (!record.numbers.e_p99) judge_e(test, reference, record, worst);
 }
 
-// Measures one frame of all runs. Frame 0 has none before it.
+// Measures the frames of all runs, as many as are compared. Frame 0 has none before it.
 class Judge {
   public:
-    Result<void> judge(Field& field, uint32_t frame, Frame reference, const Surroundings& around) {
+    Judge(ReferenceRenderer& reference, const Course& course, TimeSpent& spent)
+        : reference_(reference), course_(course), spent_(spent) {}
+
+    // Once a frame, when all runs have drawn it and are captured.
+    Result<void> judge(Field& field, uint32_t frame) {
         bool has_event = std::any_of(field.results.begin(), field.results.end(),
                                      [&](const RunResult& run) { return run.frames[frame].counters.event_count > 0; });
         bool wants_e = frame % kFlipStep == 0 || has_event || had_event_;
-        std::optional<Motion> motion;
-        if (frame > 0) motion = motion_between(before_, reference);
-        for (size_t i = 0; i < field.runs.size(); ++i) {
-            Running& running = field.runs[i];
-            RunResult& result = field.results[i];
-            FrameRecord& record = result.frames[frame];
-            double promise_px = promised_px(result.spec, record.counters);
-            Result<void> judged = judge_picture(running.now, reference, promise_px, around, record.numbers);
-            if (!judged) return judged;
-            if (wants_e) take_e(running.now, reference, record, result.worst_e);
-            if (has_event && frame > 0) take_e(running.before, before_, result.frames[frame - 1], result.worst_e);
-            if (motion) {
-                running.temporal.push_back(
-                    judge_w(*motion, running.before, running.now, before_, reference, record, result.worst_w));
-            }
-            std::swap(running.before, running.now);
+        bool is_compared = course_.compared == Compared::all || wants_e || frame % kFlipStep == 1;
+        std::optional<Frame> truth;
+        if (is_compared) {
+            Result<Frame> drawn = referred(frame);
+            if (!drawn) return tl::unexpected(drawn.error());
+            truth = std::move(*drawn);
         }
+        if (has_event && frame > 0 && !before_) {
+            Result<Frame> drawn = referred(frame - 1);
+            if (!drawn) return tl::unexpected(drawn.error());
+            before_ = std::move(*drawn);
+            for (size_t i = 0; i < field.runs.size(); ++i) {
+                Result<void> judged = judge_one(field.results[i], field.runs[i].before, *before_, frame - 1);
+                if (!judged) return judged;
+            }
+        }
+        gl::Timer judging;
+        if (truth) {
+            if (Result<void> compared = compare(field, frame, *truth, wants_e, has_event); !compared) return compared;
+        }
+        for (Running& running : field.runs) std::swap(running.before, running.now);
         had_event_ = has_event;
-        before_ = std::move(reference);
+        before_ = std::move(truth);
+        spent_.numbers_ms += judging.elapsed_ms();
         return {};
     }
 
   private:
     static constexpr uint32_t kFlipStep = 10;
-    Frame before_;  // the reference's
+
+    Result<Frame> referred(uint32_t frame) {
+        gl::Timer referring;
+        Result<Frame> drawn = reference_.frame(course_.cameras[frame]);
+        spent_.references_ms += referring.elapsed_ms();
+        return drawn;
+    }
+
+    Result<void> judge_one(RunResult& result, const Frame& test, const Frame& truth, uint32_t frame) {
+        FrameRecord& record = result.frames[frame];
+        auto around = [&](uint32_t margin_px) { return reference_.surroundings(course_.cameras[frame], margin_px); };
+        return judge_picture(test, truth, promised_px(result.spec, record.counters), around, record.numbers);
+    }
+
+    Result<void> compare(Field& field, uint32_t frame, const Frame& truth, bool wants_e, bool has_event) {
+        std::optional<Motion> motion;
+        if (before_) motion = motion_between(*before_, truth);
+        for (size_t i = 0; i < field.runs.size(); ++i) {
+            Running& running = field.runs[i];
+            RunResult& result = field.results[i];
+            FrameRecord& record = result.frames[frame];
+            if (Result<void> judged = judge_one(result, running.now, truth, frame); !judged) return judged;
+            if (wants_e) take_e(running.now, truth, record, result.worst_e);
+            if (has_event && before_) take_e(running.before, *before_, result.frames[frame - 1], result.worst_e);
+            if (motion) {
+                running.temporal.push_back(
+                    judge_w(*motion, running.before, running.now, *before_, truth, record, result.worst_w));
+            }
+        }
+        return {};
+    }
+
+    ReferenceRenderer& reference_;
+    const Course& course_;
+    TimeSpent& spent_;
+    std::optional<Frame> before_;  // the reference's, where it was compared
     bool had_event_ = false;
 };
+
+// Frame by frame as when it is compared, without references, reading back and floors.
+Result<CourseResult> run_uncompared(World& world, const Course& course, const std::function<void(double)>& done) {
+    Result<Field> field = Field::make(world, course);
+    if (!field) return tl::unexpected(field.error());
+    find_floors(field->results);
+    for (uint32_t frame = 0; frame < course.cameras.size(); ++frame) {
+        for (size_t i = 0; i < course.specs.size(); ++i) {
+            size_t run = (frame + i) % course.specs.size();
+            field->results[run].frames.push_back(field->draw(run, course.cameras[frame], frame));
+        }
+        done(double(frame + 1) / double(course.cameras.size()));
+    }
+    return CourseResult{std::move(field->results), 0, 0, 0, {}};
+}
 
 void take_pop_indices(Field& field) {
     for (size_t i = 0; i < field.runs.size(); ++i) {
@@ -168,6 +227,7 @@ void add_floors(std::vector<MethodSpec>& specs) {
 
 Result<CourseResult> run_course(World& world, const Course& course, const gl::Renderer& renderer, const std::string& cache_folder,
                                 const std::function<void(double)>& done) {
+    if (course.compared == Compared::none) return run_uncompared(world, course, done);
     const view::Camera& first = course.cameras.front();
     Result<ReferenceRenderer> reference = ReferenceRenderer::make(world, renderer, first.width_px, first.height_px, cache_folder);
     if (!reference) return tl::unexpected(reference.error());
@@ -177,14 +237,10 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
 
     std::vector<uint32_t> g_chosen = spread_frames(uint32_t(course.cameras.size()), kMostHonestyFrames);
     std::set<uint32_t> g_frames(g_chosen.begin(), g_chosen.end());
-    Judge judge;
     TimeSpent spent;
+    Judge judge(*reference, course, spent);
     for (uint32_t frame = 0; frame < course.cameras.size(); ++frame) {
         const view::Camera& camera = course.cameras[frame];
-        gl::Timer referring;
-        Result<Frame> truth = reference->frame(camera);
-        if (!truth) return tl::unexpected(truth.error());
-        spent.references_ms += referring.elapsed_ms();
         for (size_t i = 0; i < course.specs.size(); ++i) {
             size_t run = (frame + i) % course.specs.size();
             gl::Timer flying;
@@ -195,11 +251,7 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
             if (g_frames.contains(frame)) field->take_g(run);
             spent.promises_ms += promising.elapsed_ms();
         }
-        auto around = [&](uint32_t margin_px) { return reference->surroundings(camera, margin_px); };
-        gl::Timer judging;
-        Result<void> judged = judge.judge(*field, frame, std::move(*truth), around);
-        if (!judged) return tl::unexpected(judged.error());
-        spent.numbers_ms += judging.elapsed_ms();
+        if (Result<void> judged = judge.judge(*field, frame); !judged) return tl::unexpected(judged.error());
         done(double(frame + 1) / double(course.cameras.size()));
     }
     take_pop_indices(*field);

@@ -16,11 +16,19 @@
 
 namespace overlook::measure {
 
+// On which frames pictures are held against the reference, which is dear to draw.
+enum class Compared {
+    all,    // every one
+    pairs,  // every tenth with the one after it, and three round each event
+    none,   // none: times and counters only
+};
+
 // What is measured.
 struct Course {
-    std::vector<MethodSpec> specs;      // each one once; their floors among them
+    std::vector<MethodSpec> specs;      // each one once; their floors among them, if any frame is compared
     std::vector<view::Camera> cameras;  // one a frame, all of the same size
     double step_s = 1.0 / 60;           // of the logical clock, from frame to frame
+    Compared compared = Compared::all;
 };
 
 // G is taken on at most so many frames, evenly spread from the first to the last: each looks at every sample in view.
@@ -29,7 +37,7 @@ constexpr uint32_t kMostHonestyFrames = 12;
 // What a frame was beside the reference. Empty where it was not taken.
 struct Numbers {
     std::optional<double> e_p99, e_mean;  // LDR-FLIP over the pixels: every tenth frame and round events
-    std::optional<double> w;              // from the second frame on
+    std::optional<double> w;              // where the frame before was compared as well
     std::optional<double> s_p95_px, s_max_px;
     std::optional<double> hole_count, hole_allowed_count;  // allowed: not counted, for the error promised explains them
     std::optional<double> psnr_db, luma_difference;
@@ -58,7 +66,7 @@ struct WorstFrame {
 struct RunResult {
     MethodSpec spec;
     std::string label;
-    size_t floor = 0;  // which run is its floor: full geometry at the same samples a pixel
+    size_t floor = 0;  // which run is its floor: full geometry at the same samples a pixel; itself where nothing is compared
     std::vector<FrameRecord> frames;
     PopIndex pop;
     HonestyTally g;  // over all frames on which it was taken
@@ -82,8 +90,9 @@ void add_floors(std::vector<MethodSpec>& specs);
 // Draws and measures on the logical clock: frame by frame, every run once each, beginning with another run every frame, so that
 // a drift of the machine hits all alike. Every run is drawn once before the first frame, which does not count. Times are of the
 // steady clock from deciding until everything is drawn; reading back, depth and the numbers are outside them. Keeps two frames of
-// each run in memory. The pictures, the counters and the numbers are the same every time; the times are not.
-// done: told the share of work done, 0..1. Fails with Exit::impossible (targets) and Exit::cannot_write (kept references).
+// each run in memory. Without a frame to compare nothing is read back and no reference drawn. The pictures, the counters and the
+// numbers are the same every time; the times are not. done: told the share of work done, 0..1. Fails with Exit::impossible
+// (targets) and Exit::cannot_write (kept references).
 Result<CourseResult> run_course(World& world, const Course& course, const gl::Renderer& renderer, const std::string& cache_folder,
                                 const std::function<void(double)>& done);
 

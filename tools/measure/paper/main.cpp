@@ -1,0 +1,215 @@
+// reproduce lod-sprite: flies what section 4 of the LOD-sprite paper flies, and writes its figures anew.
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "formats/atomic_file.h"
+#include "formats/mapped_file.h"
+#include "runtime/gl/png.h"
+#include "tools/measure/deliver.h"
+#include "tools/measure/methods.h"
+#include "tools/measure/options.h"
+#include "tools/measure/page_text.h"
+#include "tools/measure/paper/paper_page.h"
+#include "tools/measure/paper/targets.h"
+
+namespace overlook::measure::paper {
+namespace {
+
+struct PaperOptions {
+    std::string folder, out, size = "512x512";
+    std::vector<std::string> methods{"lod-sprite:paper", "lod-sprite"};
+    std::vector<double> thresholds_px{0.25, 0.5, 1, 2, 4, 8};
+    uint32_t frames = 600;
+};
+
+void add_paper_options(CLI::App& verb, PaperOptions& options) {
+    verb.add_option("folder", options.folder, "What make-sample lod-sprite made, with sample.ovl baked into it")
+        ->required()
+        ->type_name("FOLDER");
+    verb.add_option("--method", options.methods,
+                    "Flown beside the high and the low cut, as of measure; may be repeated; default lod-sprite:paper, lod-sprite")
+        ->type_name("METHOD")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--size", options.size, "Size of the pictures in pixels")->type_name("WxH")->capture_default_str();
+    verb.add_option("--frames", options.frames, "Frames on the way; figure 12 takes an eighth to twice as many")
+        ->type_name("N")
+        ->check(command::number_in(16, 10000))
+        ->capture_default_str();
+    verb.add_option("--out", options.out, "Folder for the page, tables and pictures; made if it is not there")
+        ->type_name("DIR")
+        ->required();
+}
+
+Result<void> make_folders(const std::string& out) {
+    for (const char* name : {"/images", "/cache"}) {
+        std::error_code problem;
+        std::filesystem::create_directories(out + name, problem);
+        if (problem) return cannot_write("{}{}: cannot make the folder: {}", out, name, problem.message());
+    }
+    return {};
+}
+
+// A part of the whole work, told as a share of it.
+class Part {
+  public:
+    Part(command::Progress& progress, double from, double to) : progress_(progress), from_(from), to_(to) {}
+    void operator()(double share) const { progress_.set(from_ + share * (to_ - from_)); }
+
+  private:
+    command::Progress& progress_;
+    double from_, to_;
+};
+
+Result<Flown> fly_all(const Flying& flying, const Plan& plan, const Cast& cast, const PaperOptions& options,
+                      command::Progress& progress) {
+    Flown flown{plan, cast, {}, step_s(flying, flying.frames), {}, {}, {}, path_of(flying)};
+    for (const PlanView& view : plan.views) {
+        Result<ViewPictures> pictures = draw_view(flying, cast, view);
+        if (!pictures) return tl::unexpected(pictures.error());
+        flown.views.push_back(std::move(*pictures));
+    }
+    Result<CourseResult> beside = fly_beside(flying, cast, Part(progress, 0.02, 0.5));
+    if (!beside) return tl::unexpected(beside.error());
+    flown.beside = std::move(*beside);
+
+    Result<std::vector<Swept>> thresholds = fly_thresholds(flying, cast, options.thresholds_px, Part(progress, 0.5, 0.85));
+    if (!thresholds) return tl::unexpected(thresholds.error());
+    flown.thresholds = std::move(*thresholds);
+
+    const uint32_t counts[] = {options.frames / 8, options.frames / 4, options.frames / 2, options.frames * 2};
+    Result<std::vector<Swept>> frame_counts = fly_frame_counts(flying, cast, counts, Part(progress, 0.85, 1));
+    if (!frame_counts) return tl::unexpected(frame_counts.error());
+    flown.frame_counts = std::move(*frame_counts);
+    for (const RunResult* sprite : sprites_of(flown))
+        flown.frame_counts.insert(flown.frame_counts.end() - 1, swept_from(*sprite, nullptr, kThreshold_px));
+    std::stable_sort(flown.frame_counts.begin(), flown.frame_counts.end(),
+                     [](const Swept& a, const Swept& b) { return a.frames < b.frames; });
+    return flown;
+}
+
+Result<void> write_tables(const Flown& flown, const World& world, const std::string& out) {
+    const std::pair<const char*, std::string> tables[] = {{"thresholds.csv", swept_csv(flown.thresholds)},
+                                                          {"frame_counts.csv", swept_csv(flown.frame_counts)},
+                                                          {"path.csv", path_csv(flown)},
+                                                          {"map.csv", map_csv(world)}};
+    for (const auto& [name, text] : tables) {
+        if (Result<void> written = write_file(out + "/" + name, std::string_view(text)); !written) return written;
+    }
+    return {};
+}
+
+// The page that measure makes of the same run keeps another name.
+Result<void> keep_measured_page(const std::string& out) {
+    std::error_code problem;
+    std::filesystem::rename(out + "/index.html", out + "/measured.html", problem);
+    if (problem) return cannot_write("{}/measured.html: cannot write: {}", out, problem.message());
+    return {};
+}
+
+Result<void> deliver_paper(const Flown& flown, const World& world, const RunSetup& setup, const std::string& out,
+                           const command::Common& common) {
+    command::Common quiet = common;
+    quiet.quiet = true;
+    if (Result<void> delivered = deliver(flown.beside, setup, out, quiet); !delivered) return delivered;
+    if (Result<void> kept = keep_measured_page(out); !kept) return kept;
+    if (Result<void> written = write_tables(flown, world, out); !written) return written;
+    std::vector<std::vector<FigurePicture>> pictures;
+    for (const ViewPictures& view : flown.views) {
+        pictures.push_back(pictures_of(view));
+        for (const FigurePicture& picture : pictures.back()) {
+            Result<void> written = write_png(out + "/images/" + picture.name + ".png", picture.image);
+            if (!written) return written;
+        }
+    }
+    std::vector<Chart> charts = charts_8_to_14(flown);
+    Result<bool> drawn = draw_charts(charts, out);
+    if (!drawn) return tl::unexpected(drawn.error());
+    if (!*drawn) command::note(common, "reproduce: gnuplot is not installed; the charts are left out");
+    std::string page = paper_page_html({flown, setup, charts, pictures, *drawn});
+    return write_file(out + "/index.html", std::string_view(page));
+}
+
+void say_targets(const Flown& flown, const std::string& out, const command::Common& common) {
+    std::vector<const RunResult*> sprites = sprites_of(flown);
+    for (const Target& target : targets_of(flown)) {
+        std::string line = fmt::format("reproduce: {}: paper {}, to reach {} {}", target.name, target.printed,
+                                       target.is_at_least ? ">=" : "<=", short_number(target.goal));
+        for (size_t i = 0; i < sprites.size(); ++i)
+            line += fmt::format("; {} {}", family_of(sprites[i]->spec),
+                                target.measured[i] ? short_number(*target.measured[i]) : "not measured");
+        command::note(common, line);
+    }
+    command::note(common, fmt::format("reproduce: the page: {}/index.html", out));
+}
+
+RunSetup setup_of(const Flying& flying, double step_s) {
+    RunSetup setup;
+    setup.version = command::version();
+    setup.scene = flying.world.name;
+    setup.scene_hash = flying.world.content_hash;
+    std::string flight = scene::json_from_flight(flying.flight);
+    setup.flight = "flight.json";
+    setup.flight_hash = content_hash(std::as_bytes(std::span(flight)));
+    setup.processor = processor_name();
+    setup.processor_threads = std::thread::hardware_concurrency();
+    setup.renderer = flying.renderer;
+    setup.width_px = flying.width_px;
+    setup.height_px = flying.height_px;
+    setup.step_s = step_s;
+    return setup;
+}
+
+Result<void> run_paper(const PaperOptions& options, const std::vector<std::string>& words, const command::Common& common) {
+    Result<Plan> plan = read_plan(options.folder + "/run.json");
+    if (!plan) return tl::unexpected(plan.error());
+    Result<Cast> cast = cast_from(*plan, options.methods);
+    if (!cast) return tl::unexpected(cast.error());
+    Result<scene::Flight> flight = scene::read_flight(options.folder + "/flight.json");
+    if (!flight) return tl::unexpected(flight.error());
+    uint32_t width_px = 0, height_px = 0;
+    if (Result<void> size = parse_size(options.size, width_px, height_px); !size) return size;
+    Result<World> read = read_world(options.folder + "/scene.json");
+    if (!read) return tl::unexpected(read.error());
+    if (Result<void> made = make_folders(options.out); !made) return made;
+
+    Result<gl::Context> context = gl::Context::headless();
+    if (!context) return tl::unexpected(context.error());
+    gl::ErrorCounter errors;
+    World world = std::move(*read);  // goes before the context
+    if (Result<void> uploaded = upload(world); !uploaded) return uploaded;
+    Flying flying{world, context->renderer(), *flight, width_px, height_px, options.frames, options.out + "/cache"};
+    command::Progress progress(common, "flying");
+    Result<Flown> flown = fly_all(flying, *plan, *cast, options, progress);
+    if (!flown) return tl::unexpected(flown.error());
+    if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
+
+    RunSetup setup = setup_of(flying, flown->step_s);
+    setup.command = words;
+    if (Result<void> delivered = deliver_paper(*flown, world, setup, options.out, common); !delivered) return delivered;
+    say_targets(*flown, options.out, common);
+    return {};
+}
+
+}  // namespace
+}  // namespace overlook::measure::paper
+
+int main(int argc, char** argv) {
+    using namespace overlook;
+    CLI::App app("Runs the experiments of a paper anew and writes its figures beside ours", "reproduce");
+    app.require_subcommand(1);
+    command::Common common;
+    measure::paper::PaperOptions options;
+    CLI::App* verb = app.add_subcommand(
+        "lod-sprite", "Section 4 of the LOD-sprite paper: figures 6 to 14 as pictures, tables, charts and a page");
+    measure::paper::add_paper_options(*verb, options);
+    command::add_common(*verb, common);
+    return command::run(app, common, argc, argv, [&] {
+        std::vector<std::string> words(argv, argv + argc);
+        words[0] = "reproduce";
+        Result<void> done = measure::paper::run_paper(options, words, common);
+        return done ? int(Exit::done) : command::fail("reproduce lod-sprite", done.error());
+    });
+}
