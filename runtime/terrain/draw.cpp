@@ -122,18 +122,42 @@ Result<void> Drawing::make_programs() {
         std::string(shaders::kTerrainVertexInputs) + shaders::kUnmoved + shaders::kTerrainVertexMain;
     const std::string ground_source = std::string(shaders::kAir) + shaders::kTerrainFragment;
     const std::string wireframe_source = ground_source + shaders::kWireframeMain;
-    const std::string sky_source = std::string(shaders::kAir) + shaders::kSkyFragment;
     auto shaded = program({"terrain", "", shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
     auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source},
                                                      {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},
                                                      {GL_FRAGMENT_SHADER, wireframe_source}});
     if (!wireframe) return tl::unexpected(wireframe.error());
-    auto sky = gl::Program::make("sky", {{GL_VERTEX_SHADER, shaders::kSkyVertex}, {GL_FRAGMENT_SHADER, sky_source}});
+    auto sky = gl::Program::make("sky", {{GL_VERTEX_SHADER, shaders::kSkyVertex}, {GL_FRAGMENT_SHADER, shaders::kSkyFragment}});
     if (!sky) return tl::unexpected(sky.error());
     shaded_ = std::move(*shaded);
     wireframe_ = std::move(*wireframe);
     sky_ = std::move(*sky);
+    return make_sky_row();
+}
+
+// Colours once and for all, so that a pixel of the sky costs a look-up.
+Result<void> Drawing::make_sky_row() {
+    std::string row_source = std::string(shaders::kAir) + shaders::kSkyRowFragment;
+    auto row = gl::Program::make("sky row", {{GL_VERTEX_SHADER, shaders::kSkyVertex}, {GL_FRAGMENT_SHADER, row_source}});
+    if (!row) return tl::unexpected(row.error());
+    GLuint texture = 0, framebuffer = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    sky_row_ = gl::Texture(texture);
+    glTextureStorage2D(texture, 1, GL_RGBA32F, shaders::kSkyColours, 1);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glCreateFramebuffers(1, &framebuffer);
+    gl::Framebuffer into(framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
+    gl::bind_for_drawing(framebuffer, shaders::kSkyColours, 1);
+    glDisable(GL_DEPTH_TEST);
+    row->use();
+    glUniform1f(row->at("count"), float(shaders::kSkyColours));
+    glBindVertexArray(nothing_.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glEnable(GL_DEPTH_TEST);
     return {};
 }
 
@@ -181,6 +205,7 @@ void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) c
     glUniform2f(sky_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
     glUniform2f(sky_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
     glBindVertexArray(nothing_.id());
+    glBindTextureUnit(3, sky_row_.id());
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_GEQUAL);  // it is drawn at depth 0
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -63,6 +63,7 @@ class Drawing {
   private:
     Drawing() = default;
     Result<void> make_programs();
+    Result<void> make_sky_row();
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
 
     uint32_t width_ = 0, height_ = 0;
@@ -76,7 +77,7 @@ class Drawing {
     gl::StreamBuffer indices_, morphs_;
     gl::Texture heights_view_, morphs_view_;  // the buffers as textures of one row
     GLsizei index_count_ = 0;
-    gl::Texture texture_;
+    gl::Texture texture_, sky_row_;
     gl::Program shaded_, wireframe_, sky_;
     uint64_t uploaded_bytes_ = 0;
 };

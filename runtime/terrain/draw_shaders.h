@@ -164,20 +164,32 @@ void main() {
 }
 )";
 
-inline constexpr char kSkyFragment[] = R"(
+// The encoded colours of the sky in a row of kSkyColours, by the sine of the altitude, -1..1 from its first middle to its last.
+inline constexpr int kSkyColours = 2048;
+inline constexpr char kSkyRowFragment[] = R"(
+uniform float count;
+out vec4 colour;
+void main() {
+    colour = vec4(encoded(air_colour(2.0 * (gl_FragCoord.x - 0.5) / (count - 1.0) - 1.0)), 1.0);
+}
+)";
+
+inline constexpr char kSkyFragment[] = R"(#version 450 core
 uniform mat3 world_from_eye;
 uniform float focal_px;
 uniform vec2 middle_px;                        // of the picture
 uniform vec2 first_px;                         // of the part that is drawn: its lower left corner in the picture
+layout(binding = 3) uniform sampler2D sky_row;
 out vec4 colour;
 
 void main() {
     vec2 at_px = gl_FragCoord.xy + first_px;
     vec3 direction = world_from_eye * vec3((at_px - middle_px) / focal_px, -1.0);
-    vec3 air = air_colour(normalize(direction).z);
+    float count = float(textureSize(sky_row, 0).x), place = (0.5 + 0.5 * normalize(direction).z) * (count - 1.0) + 0.5;
+    vec3 air = textureLod(sky_row, vec2(place / count, 0.5), 0.0).rgb;
     // Half a step of noise, the same in every frame, keeps the sky from showing bands.
     float noise = fract(52.9829189 * fract(dot(at_px, vec2(0.06711056, 0.00583715)))) - 0.5;
-    colour = vec4(encoded(air) + noise / 255.0, 1.0);
+    colour = vec4(air + noise / 255.0, 1.0);
 }
 )";
 

@@ -20,7 +20,8 @@ std::string hash_of(const std::string& text) {
 std::string shaders_hash() {
     return hash_of(std::string(terrain::shaders::kTerrainVertexInputs) + terrain::shaders::kUnmoved +
                    terrain::shaders::kTerrainVertexMain + terrain::shaders::kAir + terrain::shaders::kTerrainFragment +
-                   terrain::shaders::kShadedMain + terrain::shaders::kSkyVertex + terrain::shaders::kSkyFragment);
+                   terrain::shaders::kShadedMain + terrain::shaders::kSkyVertex + terrain::shaders::kSkyRowFragment +
+                   terrain::shaders::kSkyFragment);
 }
 
 std::string bits_of(double number) {
