@@ -171,6 +171,9 @@ void Director::key_done(DepthGrid depths) {
     Reuse made = reuse(making_->slot, camera_);
     // One that came out worse than what is at hand waits in the cache.
     if (!current_ || settings_.mode == KeyMode::at_once || made.error_p99_px <= current_reuse_.error_p99_px || serves(made)) {
+        if (has_taken_over_) life_frames_ = 0.5 * (life_frames_ + double(age_frames_));
+        has_taken_over_ = true;
+        age_frames_ = 0;
         before_ = current_;
         current_ = making_->slot;
         current_reuse_ = made;
@@ -206,6 +209,7 @@ void Director::put_near_first() {
 
 const Novel& Director::novel() {
     is_begun_ = false;
+    ++age_frames_;
     novel_.keys.clear();
     novel_.rekeyed = took_over_;
     novel_.near_depth_m = 0;
@@ -219,7 +223,7 @@ const Novel& Director::novel() {
     } else {
         if (settings_.draws_near) {
             double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
-            novel_.near_depth_m = track_.speed_m() * settings_.most_slices / (most_growth - 1);
+            novel_.near_depth_m = track_.speed_m() * life_frames_ / (most_growth - 1);
             detail.near_depth_m = novel_.near_depth_m;
             detail.near_error_px = settings_.error_px;
         }

@@ -111,6 +111,9 @@ class Director {
     std::optional<Making> making_;
     Reuse current_reuse_;
     uint64_t expected_triangles_ = 0;  // of a key
+    double life_frames_ = 16;          // of keys lately
+    uint32_t age_frames_ = 0;          // of the one in use
+    bool has_taken_over_ = false;
     uint64_t keys_made_ = 0, slice_triangles_ = 0;
     bool was_last_ = false;
     Cause took_over_ = Cause::none;

@@ -59,7 +59,7 @@ void refine_steady(benchmark::State& state, const Landscape& land) {
 void screen_test(benchmark::State& state, const Landscape& land) {
     terrain::HeightBounds bounds(land.terrain);
     const terrain::Shape& shape = land.terrain.shape;
-    terrain::ScreenTest test(land.terrain, bounds, overview(land.terrain, bounds.whole().high_m, 45), 1, 0);
+    terrain::ScreenTest test(land.terrain, bounds, overview(land.terrain, bounds.whole().high_m, 45), {1, 0});
     repeat(state, [&] {
         double tests = 0, greatest = 0;
         size_t split_count = 0;

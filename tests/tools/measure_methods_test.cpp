@@ -33,7 +33,7 @@ TEST(Methods, AreNamedWithEverySetting) {
 
 TEST(Methods, AreReadBackFromTheirLabels) {
     for (const char* text : {"terrain@error-px=0.5@samples=1@morph=0.25", "terrain:hard@error-px=2@samples=1", "full@samples=2",
-                             "lod-sprite:paper@error-px=1@low-error-px=8@depth-thickness=0.001@strips=1@samples=4"}) {
+                             "lod-sprite:paper@error-px=1@low-error-px=8@key-error-px=1@depth-thickness=0.001@strips=1@samples=4"}) {
         Result<MethodSpec> spec = parse_method(text);
         ASSERT_TRUE(spec) << spec.error().message;
         EXPECT_EQ(label_of(*spec), text);

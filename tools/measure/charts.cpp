@@ -41,10 +41,6 @@ set xlabel offset 0,0.8
 is_narrow = width < 600
 )";
 
-std::string head(size_t key_rows) {
-    return fmt::format("key_rows = {}\n", key_rows) + kHead;
-}
-
 // In the order of the runs, each family once; the floor's last.
 std::vector<std::string> families_of(const CourseResult& course) {
     std::vector<std::string> families;
@@ -66,7 +62,7 @@ std::string style_of(const CourseResult& course, size_t run, double width) {
 
 // runs.csv's columns: 1 run, 2 method, 3 is_floor, 4 e, 7 frame_ms_p50, 9 triangles_p50, 10 resident bytes.
 Chart front(const CourseResult& course, const std::string& name, const std::string& title, const std::string& cost, int column) {
-    Chart chart{name, title, head(families_of(course).size() + 1)};
+    Chart chart{name, title, chart_head(families_of(course).size() + 1)};
     chart.script +=
         fmt::format("set xlabel {}\nset ylabel 'E: LDR-FLIP, 99th percentile'\nset logscale x\nset yrange [0:*]\n", quoted(cost));
     chart.script += "set format x '%.0s%c'\nset offsets graph 0.08, graph 0.08, graph 0.12, 0\n";
@@ -141,7 +137,7 @@ bool has_pictures(const CourseResult& course) {
 }
 
 Chart over_flight(const CourseResult& course) {
-    Chart chart{"flight", "Steadiness and frame time over the flight", head(course.runs.size())};
+    Chart chart{"flight", "Steadiness and frame time over the flight", chart_head(course.runs.size())};
     if (!has_pictures(course)) {
         chart.title = "Frame time over the flight";
         chart.script += "set xlabel 'frame'\nset ylabel 'frame time, ms'\nset logscale y\n";
@@ -163,7 +159,7 @@ Chart over_flight(const CourseResult& course) {
 }
 
 Chart distribution(const CourseResult& course) {
-    Chart chart{"distribution", "How the errors are spread", head(course.runs.size())};
+    Chart chart{"distribution", "How the errors are spread", chart_head(course.runs.size())};
     chart.script += "set xlabel 'E of a frame: LDR-FLIP, 99th percentile'\nset ylabel 'share of frames at most so'\n";
     chart.script += "set yrange [0:1.02]\nset format y '%.1f'\nif (is_narrow) set xtics 0.1\nplot ";
     for (size_t i = 0; i < course.runs.size(); ++i) {
@@ -180,7 +176,7 @@ Chart distribution(const CourseResult& course) {
 // honesty.csv's columns: 1 method, 2 promised, 4 measured in the median, 6 and 7 the worst and what was promised of it. A curve
 // of worst things with dots, one of median things in dashes.
 Chart promise(const CourseResult& course) {
-    Chart chart{"promise", "Promised against measured pixels", head(2 * families_of(course).size() + 1)};
+    Chart chart{"promise", "Promised against measured pixels", chart_head(2 * families_of(course).size() + 1)};
     chart.script +=
         "set xlabel 'promised of a triangle, pixels'\nset ylabel 'measured of it, pixels'\nset logscale xy\n"
         "set format x '%g'\nset format y '%g'\nset xrange [0.01:*]\nset yrange [0.005:*]\n";
@@ -207,8 +203,8 @@ bool has_honesty(const CourseResult& course) {
 
 }  // namespace
 
-std::string chart_head() {
-    return kHead;
+std::string chart_head(size_t key_rows) {
+    return fmt::format("key_rows = {}\n", key_rows) + kHead;
 }
 
 std::string gnuplot_text(const std::string& text) {

@@ -16,8 +16,9 @@ struct Chart {
     std::string script;  // gnuplot's, with relative paths: run it in charts/ to draw it again
 };
 
-// What every chart's script begins with: the terminal of its form, the look of axes and grid.
-std::string chart_head();
+// What every chart's script begins with: the terminal of its form, the look of axes and grid. key_rows: how many lines the key
+// has.
+std::string chart_head(size_t key_rows);
 // A text as gnuplot takes it.
 std::string gnuplot_text(const std::string& text);
 // Which column of frames.csv a figure is in, as gnuplot counts them.

@@ -53,7 +53,7 @@ std::string printed_point(double x, double y, const std::string& title) {
 }
 
 Chart triangles(const Flown& flown) {
-    Chart chart{"figure-9", "Figure 9: triangles drawn, frame by frame", chart_head()};
+    Chart chart{"figure-9", "Figure 9: triangles drawn, frame by frame", chart_head(6)};
     chart.script += "set xlabel 'frame'\nset ylabel 'triangles'\nset logscale y\nset format y '%.0s%c'\n";
     chart.script += "$paper << EOD\n";
     for (const PlanView& view : flown.plan.views) {
@@ -67,14 +67,14 @@ Chart triangles(const Flown& flown) {
 }
 
 Chart error(const Flown& flown) {
-    Chart chart{"figure-10", "Figure 10: the method's own error, frame by frame", chart_head()};
+    Chart chart{"figure-10", "Figure 10: the method's own error, frame by frame", chart_head(6)};
     chart.script += "set xlabel 'frame'\nset ylabel 'error, pixels'\nset yrange [0:*]\n";
     chart.script += plot_of(lines_of(flown, true), "predicted_error_px") + printed_level(kThreshold_px, "threshold") + "\n";
     return chart;
 }
 
 Chart times(const Flown& flown) {
-    Chart chart{"figure-11", "Figure 11: time of each frame", chart_head()};
+    Chart chart{"figure-11", "Figure 11: time of each frame", chart_head(6)};
     chart.script += "set xlabel 'frame'\nset ylabel 'milliseconds'\nset logscale y\n";
     chart.script += plot_of(lines_of(flown, false), "frame_ms") +
                     printed_level(Printed::kHighMean_ms, "paper: high, mean 526 ms") +
@@ -100,7 +100,7 @@ std::string swept_plot(const Flown& flown, const char* table, const char* x, con
 }
 
 Chart by_frame_count(const Flown& flown) {
-    Chart chart{"figure-12", "Figure 12: share of keyframes against the number of frames on the same way", chart_head()};
+    Chart chart{"figure-12", "Figure 12: share of keyframes against the number of frames on the same way", chart_head(6)};
     chart.script += "set xlabel 'frames on the way'\nset ylabel 'keyframes / frames'\nset logscale x\nset yrange [0:*]\n";
     chart.script += swept_plot(flown, "frame_counts.csv", "$3", "5") +
                     printed_point(Printed::kFrames, double(Printed::kKeyframes) / Printed::kFrames, "paper: 16 of 600");
@@ -108,7 +108,7 @@ Chart by_frame_count(const Flown& flown) {
 }
 
 Chart by_threshold(const Flown& flown) {
-    Chart chart{"figure-13", "Figure 13: share of keyframes against the threshold", chart_head()};
+    Chart chart{"figure-13", "Figure 13: share of keyframes against the threshold", chart_head(6)};
     chart.script += "set xlabel 'threshold, pixels'\nset ylabel 'keyframes / frames'\nset yrange [0:*]\nset xrange [0:*]\n";
     chart.script +=
         fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} lw 1.5 dt 2\n", Printed::kKneeThreshold_px, kGrey);
@@ -120,7 +120,7 @@ Chart by_threshold(const Flown& flown) {
 }
 
 Chart speed_up(const Flown& flown) {
-    Chart chart{"figure-14", "Figure 14: speed-up of the mean frame against the threshold", chart_head()};
+    Chart chart{"figure-14", "Figure 14: speed-up of the mean frame against the threshold", chart_head(6)};
     chart.script +=
         "set xlabel 'threshold, pixels'\nset ylabel 'high cut / method, mean time'\nset yrange [0:*]\nset xrange [0:*]\n";
     chart.script +=
@@ -130,7 +130,7 @@ Chart speed_up(const Flown& flown) {
 
 // Columns of path.csv: 1 frame, 2 east, 3 north, 4 height, 5 ground, 6 flown, 7 is_key, 8 is_over_terrain.
 Chart map_from_above() {
-    Chart chart{"figure-8-map", "Figure 8: the flight from above", chart_head()};
+    Chart chart{"figure-8-map", "Figure 8: the flight from above", chart_head(6)};
     chart.script += "set xlabel 'east, km'\nset ylabel 'north, km'\nset size ratio -1\nset colorbox\nset cblabel 'ground, m'\n";
     chart.script += "set palette defined (0 '#7c9a5e', 0.25 '#c9c58a', 0.6 '#8d7a68', 1 '#ffffff')\n";
     chart.script +=
@@ -142,7 +142,7 @@ Chart map_from_above() {
 }
 
 Chart profile() {
-    Chart chart{"figure-8-profile", "Figure 8: the flight from the side", chart_head()};
+    Chart chart{"figure-8-profile", "Figure 8: the flight from the side", chart_head(6)};
     chart.script += "set xlabel 'way flown, km'\nset ylabel 'height, m'\nset yrange [0:*]\n";
     chart.script +=
         "plot '../path.csv' skip 1 using ($8 > 0 ? $6 : NaN):5 with filledcurves x1 lc rgb \"#a9b08a\" title 'ground below', \\\n"
