@@ -7,6 +7,7 @@
 #include "runtime/gl/timer.h"
 #include "runtime/player/flight.h"
 #include "runtime/player/record.h"
+#include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 
 namespace overlook::player {
@@ -83,7 +84,7 @@ FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, do
                         const terrain::DrawOptions& options) {
     assert(drawing_.has_value());
     FrameRecord record;
-    view::Camera local = view::camera_into(transform(), camera);
+    view::Camera local = terrain::with_clear_near_plane(*terrain_, view::camera_into(transform(), camera));
     gl::Timer refining;
     refiner_->cut_by_pixels(local, error_px, cut_, morph);
     record.refine_ms = refining.elapsed_ms();
