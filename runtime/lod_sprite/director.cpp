@@ -18,7 +18,7 @@ constexpr double kFillWeight = 1.0 / 1024;
 constexpr double kUnkeyedFiner = 4;        // without a key the coarse cut keeps low_error_px over this
 constexpr uint64_t kLeastSlice = 512;      // triangles
 constexpr uint64_t kUnknownKey = 1 << 18;  // triangles, before there was one
-constexpr double kAimAhead = 1.75;  // of the slices: a key ahead of the camera opens less than one behind it
+constexpr double kAimAhead = 1.75;         // of the slices: a key ahead of the camera opens less than one behind it
 
 }  // namespace
 
@@ -38,8 +38,13 @@ Reuse Director::reuse(uint32_t slot, const view::Camera& camera) const {
     return reuse_of(slots_[slot].key, camera, settings_.low_error_px);
 }
 
+// A key's own promise passes, whatever rounding made of it.
+double Director::most_error_px() const {
+    return settings_.key_error_px * settings_.error_px * (1 + 1e-6);
+}
+
 bool Director::serves(const Reuse& reuse) const {
-    return reuse.error_p99_px <= settings_.key_error_px && reuse.magnification_p99 <= settings_.most_magnified;
+    return reuse.error_p99_px <= most_error_px() && reuse.magnification_p99 <= settings_.most_magnified;
 }
 
 // A key from the cache, where the one in use no longer serves and another does: going to and fro costs nothing.
@@ -68,6 +73,13 @@ uint32_t Director::frames_left() const {
         left = frames;
     }
     return settings_.most_slices;
+}
+
+// Of a key that serves as far as one can see: is there nothing to be won by another, as its error is small or does not grow?
+bool Director::may_rest() const {
+    double now_px = current_reuse_.error_p99_px;
+    return now_px <= kRest * most_error_px() ||
+           reuse(*current_, track_.predicted(settings_.most_slices)).error_p99_px <= now_px * (1 + 1e-6);
 }
 
 Cause Director::cause_now() const {
@@ -127,7 +139,7 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
     if (is_begun_) return std::nullopt;
     is_begun_ = true;
     camera_ = camera;
-    track_.add(camera);
+    bool has_jumped = track_.add(camera);
     slice_triangles_ = 0;
     took_over_ = Cause::none;
     judge_keys();
@@ -140,7 +152,7 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
         double old_off_m = current_ ? glm::length(slots_[*current_].key.camera.position_m - camera.position_m) : aim_off_m;
         double speed_m = track_.speed_m() * settings_.most_slices;
         bool is_wrong = aim_off_m > old_off_m && aim_off_m > 2 * speed_m;
-        if (is_wrong) making_.reset();
+        if (is_wrong || has_jumped) making_.reset();
     }
     if (!making_) {
         if (settings_.mode == KeyMode::at_once) {
@@ -148,8 +160,7 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
             begin_key(camera, cause_now());
         } else {
             uint32_t left = frames_left();
-            if (left >= settings_.most_slices && current_reuse_.error_p99_px <= kRest * settings_.key_error_px)
-                return std::nullopt;
+            if (left >= settings_.most_slices && may_rest()) return std::nullopt;
             uint32_t slices = left == 0 ? kHurriedSlices : std::max(left, kHurriedSlices);
             begin_key(track_.predicted(kAimAhead * slices), is_served ? Cause::error : cause_now());
             making_->frames_to_go = slices;

@@ -93,7 +93,9 @@ class Director {
 
     void judge_keys();
     Reuse reuse(uint32_t slot, const view::Camera& camera) const;
+    double most_error_px() const;
     bool serves(const Reuse& reuse) const;
+    bool may_rest() const;
     uint32_t frames_left() const;
     Cause cause_now() const;
     void begin_key(const view::Camera& pose, Cause cause);

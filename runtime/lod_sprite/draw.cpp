@@ -87,9 +87,13 @@ DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
     glGetTextureImage(sprite.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(all.size() * sizeof(float)), all.data());
     DepthGrid grid{(sprite.width_px + step - 1) / step, (sprite.height_px + step - 1) / step, {}};
     grid.depth_m.reserve(size_t(grid.width) * grid.height);
-    for (uint32_t y = 0; y < sprite.height_px; y += step)
-        for (uint32_t x = 0; x < sprite.width_px; x += step) {
-            float inverse = all[size_t(sprite.height_px - 1 - y) * sprite.width_px + x];
+    auto middle = [](uint32_t cell, uint32_t cells, uint32_t side_px) {
+        return size_t((2 * uint64_t(cell) + 1) * side_px / (2 * uint64_t(cells)));
+    };
+    for (uint32_t y = 0; y < grid.height; ++y)
+        for (uint32_t x = 0; x < grid.width; ++x) {
+            size_t row = sprite.height_px - 1 - middle(y, grid.height, sprite.height_px);
+            float inverse = all[row * sprite.width_px + middle(x, grid.width, sprite.width_px)];
             grid.depth_m.push_back(inverse > 0 ? float(sprite.camera.near_m) / inverse : std::numeric_limits<float>::infinity());
         }
     return grid;

@@ -50,7 +50,8 @@ class Painter {
     Result<void> begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale);
     // Adds what the surface draws now, as the key's camera sees it.
     void draw_into_key(uint32_t slot, gl::Surface& surface);
-    // The key's depths (metres along its axis, infinity = nothing), every `step`-th texel of every `step`-th row, from the top.
+    // The key's depths (metres along its axis, infinity = nothing) in the middle of each cell of a grid over its picture, from
+    // the top; a cell is at most `step` texels wide and high.
     DepthGrid read_depth(uint32_t slot, uint32_t step) const;
 
     // Draws a novel frame, background and all, and resolves it. near: what lies nearer than near_depth_m all through, drawn

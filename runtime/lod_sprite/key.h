@@ -9,7 +9,8 @@
 
 namespace overlook::lod_sprite {
 
-// Depths of a picture, metres along the camera's axis, infinity where nothing is. [height, width], top row first.
+// Depths of a picture in the middles of so many equal cells, metres along the camera's axis, infinity where nothing is.
+// [height, width], top row first.
 struct DepthGrid {
     uint32_t width = 0, height = 0;
     std::vector<float> depth_m;

@@ -12,7 +12,8 @@ namespace {
 constexpr double kSteepest = 1.35;  // depths of neighbours in the grid farther apart than that are a step
 constexpr int kRaysASide = 12;      // that are asked whether the key saw what is there
 constexpr size_t kErrorSteps = 256;
-constexpr double kErrorBase = 1.05;  // of the logarithmic steps in which errors are counted
+constexpr double kRoundingShare = 1e-9;  // of the frame: less is not lost but rounded
+constexpr double kErrorBase = 1.05;      // of the logarithmic steps in which errors are counted
 
 // A point of the key in the camera's picture: pixels from the middle, and depth.
 struct Seen {
@@ -49,7 +50,9 @@ class Histogram {
   public:
     void add(double error_px, double area) {
         double step = std::ceil(std::log(std::max(error_px, kLeast_px) / kLeast_px) / std::log(kErrorBase));
-        areas_[size_t(std::min(step, double(kErrorSteps - 1)))] += area;
+        size_t at = size_t(std::min(step, double(kErrorSteps - 1)));
+        areas_[at] += area;
+        greatest_of_px_[at] = std::max(greatest_of_px_[at], error_px);
         sum_ += area;
         greatest_px_ = std::max(greatest_px_, error_px);
     }
@@ -57,7 +60,7 @@ class Histogram {
         double below = 0;
         for (size_t i = 0; i < kErrorSteps; ++i) {
             below += areas_[i];
-            if (below >= share * sum_) return kLeast_px * std::pow(kErrorBase, double(i));
+            if (below >= share * sum_) return greatest_of_px_[i];
         }
         return greatest_px_;
     }
@@ -65,7 +68,7 @@ class Histogram {
 
   private:
     static constexpr double kLeast_px = 0.01;
-    std::array<double, kErrorSteps> areas_{};
+    std::array<double, kErrorSteps> areas_{}, greatest_of_px_{};  // of each step
     double sum_ = 0, greatest_px_ = 0;
 };
 
@@ -73,7 +76,7 @@ bool is_in_frame(const view::Camera& camera, const Seen& at) {
     return at.depth > 0 && std::abs(at.x) <= camera.width_px / 2.0 && std::abs(at.y) <= camera.height_px / 2.0;
 }
 
-// The share of the camera's rays that leave what the key saw, for surfaces at the depths that the key holds.
+// The share of the camera's rays that leave what the key saw, for a surface straight before it at the middle of its depths.
 double outside_share_of(const Key& key, const view::Camera& camera) {
     std::vector<float> depths;
     for (size_t i = 0; i < key.depths.depth_m.size(); i += 7)
@@ -92,8 +95,11 @@ double outside_share_of(const Key& key, const view::Camera& camera) {
             double x = ((i + 0.5) / kRaysASide - 0.5) * camera.width_px / focal_px;
             double y = ((j + 0.5) / kRaysASide - 0.5) * camera.height_px / focal_px;
             glm::dvec3 ray = link.key_from_world * (axes.forward + x * axes.right + y * axes.up);
-            glm::dvec3 at = std::isfinite(middle_m) ? link.eye_m + middle_m * ray : ray;
-            bool is_seen = at.z > 0 && std::abs(at.x) <= link.tangents.x * at.z && std::abs(at.y) <= link.tangents.y * at.z;
+            // Where the ray meets that surface; once past it, anything farther will do.
+            double way_m = std::max(0.0, (middle_m - link.eye_m.z) / ray.z);
+            glm::dvec3 at = std::isfinite(middle_m) ? link.eye_m + way_m * ray : ray;
+            bool is_seen =
+                ray.z > 0 && at.z > 0 && std::abs(at.x) <= link.tangents.x * at.z && std::abs(at.y) <= link.tangents.y * at.z;
             outside += !is_seen;
         }
     return double(outside) / (kRaysASide * kRaysASide);
@@ -144,7 +150,7 @@ Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error
         }
     reuse.opened_share = std::min(1.0, opened / frame_area);
     reuse.outside_share = outside_share_of(key, camera);
-    errors.add(fallback_error_px, reuse.lost_share() * frame_area);
+    if (reuse.lost_share() > kRoundingShare) errors.add(fallback_error_px, reuse.lost_share() * frame_area);
     reuse.magnification_p99 = magnifications.percentile(0.99);
     reuse.error_p99_px = errors.percentile(0.99);
     reuse.error_max_px = errors.greatest_px();

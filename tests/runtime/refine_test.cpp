@@ -337,6 +337,47 @@ TEST(MorphedCut, MovesInProportionToTheCamera) {
     EXPECT_GT(greatest_step_px(terrain, 0, 0.05), 0.3);  // a pop is one however slowly it is flown by
 }
 
+// A finer near part, for cameras of every kind.
+TEST(NearFinerCut, HasNoCrack) {
+    Terrain terrain = baked(test::make_hills(129, 129, 3, 0.02));
+    Refiner refiner(terrain);
+    Cut cut, coarse;
+    size_t finer = 0;
+    for (uint64_t seed = 0; seed < 300; ++seed) {
+        view::Camera camera = random_camera(terrain, seed);
+        double near_depth_m = 100 + 3000 * test::random_share(79, seed);
+        refiner.cut_by_pixels(camera, 12, coarse);
+        refiner.cut_by_pixels(camera, {12, 0, near_depth_m, 1}, cut);
+        finer += cut.triangle_count() > coarse.triangle_count() + 20;
+        ASSERT_EQ(count_t_junctions(terrain, cut), 0u) << "camera " << seed;
+    }
+    EXPECT_GT(finer, 50u);
+}
+
+TEST(NearFinerCut, KeepsTheNearErrorNearAndTheOtherEverywhere) {
+    Terrain terrain = baked(test::make_hills(129, 97, 11));
+    Refiner refiner(terrain);
+    Cut cut;
+    double nearest_to_promise_px[2] = {0, 0};  // far, near
+    for (uint64_t seed = 0; seed < 200; ++seed) {
+        view::Camera camera = random_camera(terrain, seed);
+        view::Axes axes = view::axes_of(camera);
+        double near_depth_m = 100 + 3000 * test::random_share(79, seed), morph = seed % 2 == 0 ? 0 : 0.5;
+        refiner.cut_by_pixels(camera, {12, morph, near_depth_m, 1}, cut);
+        visit_surface(terrain, cut, [&](uint32_t column, uint32_t row, double z) {
+            Screen truth = project(camera, axes, place_of(terrain, column, row, terrain.height_m(column, row)));
+            Screen drawn = project(camera, axes, place_of(terrain, column, row, z));
+            if (!is_in_frame(camera, truth) || !is_in_frame(camera, drawn)) return;
+            bool is_near = std::min(truth.depth, drawn.depth) < near_depth_m;
+            double off_px = std::hypot(truth.x - drawn.x, truth.y - drawn.y), asked_px = is_near ? 1 : 12;
+            ASSERT_LE(off_px, asked_px * (1 + 1e-6)) << "camera " << seed;
+            nearest_to_promise_px[is_near] = std::max(nearest_to_promise_px[is_near], off_px);
+        });
+    }
+    EXPECT_GT(nearest_to_promise_px[0], 3);
+    EXPECT_GT(nearest_to_promise_px[1], 0.3);
+}
+
 TEST(MetreCut, OfAPlaneIsTwoTrianglesARoot) {
     dem::Raster plane = test::make_dem(129, 65, [](uint32_t x, uint32_t y) { return float(4 * x + 2 * y); });
     Terrain terrain = baked(plane);
