@@ -31,14 +31,16 @@ struct Events {
     double wheel = 0;
     int error_presses = 0;
     bool toggle_wireframe = false, toggle_overlay = false, take_picture = false, toggle_recording = false;
+    bool toggle_sources = false;
+    int method_presses = 0;
 };
 
 // The state of a window flight that lasts over frames.
 struct Flight {
     view::Camera camera;
     Flyer flyer;
-    double error_px = 1;
-    terrain::DrawOptions draw;
+    FrameStyle style;  // its error is the one asked for; a budget may raise the frame's
+    KeyWatch keys;
     bool shows_overlay = true;
     uint32_t picture_count = 0;
     double mouse_x_px = 0, mouse_y_px = 0;
@@ -79,6 +81,12 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
             break;
         case GLFW_KEY_F:
             events.toggle_wireframe = !events.toggle_wireframe;
+            break;
+        case GLFW_KEY_K:
+            events.toggle_sources = !events.toggle_sources;
+            break;
+        case GLFW_KEY_M:
+            if (action == GLFW_PRESS) ++events.method_presses;
             break;
         case GLFW_KEY_H:
             events.toggle_overlay = !events.toggle_overlay;
@@ -134,12 +142,22 @@ Input read_input(GLFWwindow* window, const Events& events, Flight& flight) {
 }
 
 void apply(const Events& events, Flight& flight) {
-    flight.error_px = events.error_presses == 0 ? flight.error_px : changed_error_px(flight.error_px, events.error_presses);
+    FrameStyle& style = flight.style;
+    if (events.error_presses != 0) style.error_px = changed_error_px(style.error_px, events.error_presses);
     if (events.toggle_overlay) flight.shows_overlay = !flight.shows_overlay;
-    if (events.toggle_wireframe) {
-        bool is_shaded = flight.draw.look == terrain::Look::shaded;
-        flight.draw.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;
+    if (events.toggle_wireframe && style.method == Method::terrain) {
+        bool is_shaded = style.look.look == terrain::Look::shaded;
+        style.look.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;
     }
+    for (int press = 0; press < events.method_presses; ++press) style.method = next(style.method);
+    if (events.toggle_sources && style.method == Method::lod_sprite) style.shows_sources = !style.shows_sources;
+}
+
+// A budget raises the error of terrain alone.
+FrameStyle style_of(const Flight& flight, const view::ErrorController& controller) {
+    FrameStyle style = flight.style;
+    if (style.method == Method::terrain) style.error_px = controller.error_px();
+    return style;
 }
 
 // The hands act in the terrain's own frame.
@@ -198,8 +216,8 @@ void show(GLFWwindow* window, const gl::Target& target, const Flight& flight, co
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     target.show(target.width_px(), target.height_px());
     if (flight.shows_overlay) {
-        overlay.draw({&record, &renderer, record.asked_error_px, flight.flyer.speed_factor, target.width_px(), target.height_px(),
-                      flight.recording.has_value()});
+        overlay.draw({&record, &renderer, flight.style.method, flight.style.shows_sources, flight.keys, record.asked_error_px,
+                      flight.flyer.speed_factor, target.width_px(), target.height_px(), flight.recording.has_value()});
     }
     glfwSwapBuffers(window);
 }
@@ -216,9 +234,8 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
 
     Flight flight;
     flight.camera = view::camera_at(plan.flight, 0, plan.base);
-    flight.error_px = plan.options.error_px;
-    view::ErrorController controller(budget_of(plan.options, flight.error_px));
-    flight.draw = plan.draw;
+    flight.style = {*plan.method, plan.options.error_px, plan.options.morph, false, plan.draw};
+    view::ErrorController controller(budget_of(plan.options, flight.style.error_px));
     std::optional<gl::Target> target;
     std::vector<FrameRecord> records;
     double last_s = glfwGetTime();
@@ -243,16 +260,18 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         }
         flight.camera.width_px = target->width_px();
         flight.camera.height_px = target->height_px();
-        if (events.error_presses != 0) controller.set_budget(budget_of(plan.options, flight.error_px));
-        FrameRecord record = scene.draw(*target, flight.camera, controller.error_px(), plan.options.morph, flight.draw);
-        controller.frame_done(cost_of(plan.options, record));
-        show(window, *target, flight, record, renderer, overlay);
+        if (events.error_presses != 0) controller.set_budget(budget_of(plan.options, flight.style.error_px));
+        Result<FrameRecord> record = scene.draw(*target, flight.camera, style_of(flight, controller));
+        if (!record) return tl::unexpected(record.error());
+        if (flight.style.method == Method::terrain) controller.frame_done(cost_of(plan.options, *record));
+        watch(flight.keys, *record);
+        show(window, *target, flight, *record, renderer, overlay);
         if (events.take_picture) {
             if (Result<void> taken = take_picture(*target, common, flight); !taken) return taken;
         }
         ++frame;
         if (frame_count > 0) {
-            records.push_back(record);
+            records.push_back(*record);
             if (Result<void> written = write_picture(plan, *target, frame - 1, frame == frame_count); !written) return written;
         }
     }
