@@ -67,7 +67,7 @@ void Overlay::draw(const OverlayText& text) {
                           megabytes(text.frame->uploaded_bytes)));
     method_lines(text);
     text_line(fmt::format("refine {:6.2f} ms   draw {:6.2f} ms", text.frame->refine_ms, text.frame->draw_ms));
-    text_line(fmt::format("error  {:.3g} px asked, {:.3g} px predicted", text.error_px, text.frame->predicted_error_px));
+    text_line(fmt::format("error  {:.3g} px asked, {:.2f} px predicted", text.error_px, text.frame->predicted_error_px));
     text_line(fmt::format("speed  x {:.3g}", text.speed_factor));
     text_line(fmt::format("{} x {}, {}{}", text.width_px, text.height_px, text.renderer->name,
                           text.renderer->is_software ? " (software)" : ""));

@@ -29,10 +29,8 @@ using WindowHandle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
 // What GLFW's callbacks collect between two frames.
 struct Events {
     double wheel = 0;
-    int error_presses = 0;
-    bool toggle_wireframe = false, toggle_overlay = false, take_picture = false, toggle_recording = false;
-    bool toggle_sources = false;
-    int method_presses = 0;
+    Presses presses;
+    bool toggle_overlay = false, take_picture = false, toggle_recording = false;
 };
 
 // The state of a window flight that lasts over frames.
@@ -80,13 +78,13 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
             glfwSetWindowShouldClose(window, GLFW_TRUE);
             break;
         case GLFW_KEY_F:
-            events.toggle_wireframe = !events.toggle_wireframe;
+            events.presses.toggles_wireframe = !events.presses.toggles_wireframe;
             break;
         case GLFW_KEY_K:
-            events.toggle_sources = !events.toggle_sources;
+            events.presses.toggles_sources = !events.presses.toggles_sources;
             break;
         case GLFW_KEY_M:
-            if (action == GLFW_PRESS) ++events.method_presses;
+            if (action == GLFW_PRESS) ++events.presses.method;
             break;
         case GLFW_KEY_H:
             events.toggle_overlay = !events.toggle_overlay;
@@ -99,11 +97,11 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
             break;
         case GLFW_KEY_EQUAL:
         case GLFW_KEY_KP_ADD:
-            ++events.error_presses;
+            ++events.presses.error;
             break;
         case GLFW_KEY_MINUS:
         case GLFW_KEY_KP_SUBTRACT:
-            --events.error_presses;
+            --events.presses.error;
             break;
         default:
             break;
@@ -139,18 +137,6 @@ Input read_input(GLFWwindow* window, const Events& events, Flight& flight) {
     flight.mouse_y_px = y_px;
     flight.has_mouse = true;
     return input;
-}
-
-void apply(const Events& events, Flight& flight) {
-    FrameStyle& style = flight.style;
-    if (events.error_presses != 0) style.error_px = changed_error_px(style.error_px, events.error_presses);
-    if (events.toggle_overlay) flight.shows_overlay = !flight.shows_overlay;
-    if (events.toggle_wireframe && style.method == Method::terrain) {
-        bool is_shaded = style.look.look == terrain::Look::shaded;
-        style.look.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;
-    }
-    for (int press = 0; press < events.method_presses; ++press) style.method = next(style.method);
-    if (events.toggle_sources && style.method == Method::lod_sprite) style.shows_sources = !style.shows_sources;
 }
 
 // A budget raises the error of terrain alone.
@@ -245,7 +231,8 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         glfwPollEvents();
         double now_s = glfwGetTime();
         Input input = read_input(window, events, flight);
-        apply(events, flight);
+        press(flight.style, events.presses);
+        if (events.toggle_overlay) flight.shows_overlay = !flight.shows_overlay;
         if (frame_count > 0 && plan.flight.keys.size() > 1)
             flight.camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
         else
@@ -260,7 +247,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         }
         flight.camera.width_px = target->width_px();
         flight.camera.height_px = target->height_px();
-        if (events.error_presses != 0) controller.set_budget(budget_of(plan.options, flight.style.error_px));
+        if (events.presses.error != 0) controller.set_budget(budget_of(plan.options, flight.style.error_px));
         Result<FrameRecord> record = scene.draw(*target, flight.camera, style_of(flight, controller));
         if (!record) return tl::unexpected(record.error());
         if (flight.style.method == Method::terrain) controller.frame_done(cost_of(plan.options, *record));
