@@ -15,8 +15,10 @@ constexpr double kRest = 0.7;         // a key whose error keeps under this shar
 constexpr double kMostLost = 0.3;     // of the frame: a key that has less to show is not looked into
 constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
 constexpr double kFillWeight = 1.0 / 1024;
-constexpr double kUnkeyedFiner = 4;    // without a key the coarse cut keeps low_error_px over this
-constexpr uint64_t kLeastSlice = 512;  // triangles
+constexpr double kUnkeyedFiner = 4;        // without a key the coarse cut keeps low_error_px over this
+constexpr uint64_t kLeastSlice = 512;      // triangles
+constexpr uint64_t kUnknownKey = 1 << 18;  // triangles, before there was one
+constexpr double kAimAhead = 1.75;  // of the slices: a key ahead of the camera opens less than one behind it
 
 }  // namespace
 
@@ -108,13 +110,17 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     making_->cut.emplace(refiner_, into.key.camera, settings_.error_px);
 }
 
-uint64_t Director::slice_triangles() const {
+// What is left of the key over the frames left to make it in, which only get fewer: a key that is needed is hurried.
+uint64_t Director::slice_triangles() {
     if (settings_.mode == KeyMode::at_once) return std::numeric_limits<uint64_t>::max();
-    if (expected_triangles_ == 0) return 32 * kLeastSlice;
-    uint32_t left = current_ ? std::max(frames_left(), kHurriedSlices) : kHurriedSlices;
+    uint32_t left = making_->is_begun ? frames_left() : making_->frames_to_go;
+    making_->frames_to_go = std::min(making_->frames_to_go, std::max(left, kHurriedSlices));
     uint64_t drawn = making_->drawn_triangles;
-    uint64_t rest = expected_triangles_ > drawn ? expected_triangles_ - drawn : expected_triangles_ / left;
-    return std::max(kLeastSlice, rest / left);
+    uint64_t expected = expected_triangles_ > 0 ? expected_triangles_ : kUnknownKey;
+    uint64_t rest = expected > drawn ? expected - drawn : expected / kHurriedSlices;
+    uint64_t wanted = std::max(kLeastSlice, rest / making_->frames_to_go);
+    making_->frames_to_go = std::max(1u, making_->frames_to_go - 1);
+    return wanted;
 }
 
 std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
@@ -145,7 +151,8 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
             if (left >= settings_.most_slices && current_reuse_.error_p99_px <= kRest * settings_.key_error_px)
                 return std::nullopt;
             uint32_t slices = left == 0 ? kHurriedSlices : std::max(left, kHurriedSlices);
-            begin_key(track_.predicted(1.5 * slices), is_served ? Cause::error : cause_now());
+            begin_key(track_.predicted(kAimAhead * slices), is_served ? Cause::error : cause_now());
+            making_->frames_to_go = slices;
         }
     }
     uint64_t wanted = slice_triangles();

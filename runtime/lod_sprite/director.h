@@ -87,6 +87,7 @@ class Director {
         Cause cause = Cause::none;
         bool is_begun = false;
         uint64_t drawn_triangles = 0;
+        uint32_t frames_to_go = 1;
         std::optional<terrain::SlicedCut> cut;
     };
 
@@ -97,7 +98,7 @@ class Director {
     Cause cause_now() const;
     void begin_key(const view::Camera& pose, Cause cause);
     uint32_t slot_to_empty() const;
-    uint64_t slice_triangles() const;
+    uint64_t slice_triangles();
     void put_near_first();
 
     const terrain::Refiner& refiner_;

@@ -129,7 +129,11 @@ Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error
             double area = ((d.x - a.x) * (b.y - c.y) - (d.y - a.y) * (b.x - c.x)) / 2;
             if (!std::isfinite(*nearest)) continue;  // sky
             if (!(*farthest <= kSteepest * *nearest)) {
-                opened += std::clamp(area - cell_area, 0.0, 64 * cell_area);
+                // What is hidden behind the nearer side comes out as the cell grows more than that side does.
+                size_t front = size_t(nearest - depths);
+                const Seen& edge = front == 0 ? a : front == 1 ? b : front == 2 ? c : d;
+                double growth = double(*nearest) / edge.depth;
+                opened += std::clamp(area - growth * growth * cell_area, 0.0, 64 * cell_area);
                 continue;
             }
             if (area <= 0) continue;  // turned away by now
