@@ -100,7 +100,8 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
     app.add_option("--method", options.method,
-                   "What to draw with: terrain, lod-sprite or lod-sprite:paper; default what the scene says, or terrain")
+                   "What to draw with: terrain, lod-sprite or lod-sprite:paper; default what the scene says, or terrain. In the "
+                   "window M changes it, K shows what lod-sprite takes from where")
         ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,
                                             "Triangles a frame at most: the error rises above --error-px where it must")
