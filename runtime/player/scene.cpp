@@ -7,6 +7,7 @@
 #include "runtime/gl/timer.h"
 #include "runtime/player/flight.h"
 #include "runtime/player/record.h"
+#include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 
 namespace overlook::player {
@@ -92,7 +93,7 @@ double cost_of(const Options& options, const FrameRecord& frame) {
 
 Result<FrameRecord> Scene::draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) {
     assert(drawing_.has_value());
-    view::Camera local = view::camera_into(transform(), camera);
+    view::Camera local = terrain::with_clear_near_plane(*terrain_, view::camera_into(transform(), camera));
     bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
     if (!goes_on) paper_.reset();
     if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));

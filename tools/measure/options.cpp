@@ -5,6 +5,7 @@
 
 #include "formats/mapped_file.h"
 #include "formats/scene.h"
+#include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 
 namespace overlook::measure {
@@ -129,7 +130,8 @@ Result<Route> route_from(const Options& options, const World& world) {
     base.height_px = height_px;
     for (uint32_t frame = 0; frame < count; ++frame) {
         view::Camera camera = view::camera_at(*flight, frame * route.step_s, base);
-        route.cameras.push_back(view::camera_into(world.transform, camera));
+        camera = view::camera_into(world.transform, camera);
+        route.cameras.push_back(terrain::with_clear_near_plane(*world.terrain, camera));
     }
     return route;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 #include "tools/measure/honesty/terrain_honesty.h"
 
@@ -19,7 +20,8 @@ std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& fl
         uint64_t frame = i;
         if (!takes_all && pick == Pick::spread && count > 1) frame = uint64_t(i) * (whole - 1) / (count - 1);
         view::Camera camera = view::camera_at(flight, scene::frame_time_s(flight, frame), base);
-        cameras.push_back(view::camera_into(stage.world.transform, camera));
+        camera = view::camera_into(stage.world.transform, camera);
+        cameras.push_back(terrain::with_clear_near_plane(*stage.world.terrain, camera));
     }
     return cameras;
 }
