@@ -26,7 +26,7 @@ struct Settings {
     uint32_t slots = 4;  // keys kept, the one being made among them; at least 2
     uint32_t most_slices = 48;
     uint32_t fade_frames = 8;  // over which a new key takes over from the old; 0 = at once
-    double morph = 0.5;        // of the coarse cut (terrain::Refiner::cut_by_pixels)
+    double morph = 0;          // of the coarse cut (terrain::Refiner::cut_by_pixels)
     KeyMode mode = KeyMode::sliced;
     bool draws_near = true;  // what keys could not serve for their life is drawn as geometry
 };

@@ -55,4 +55,14 @@ double changed_error_px(double error_px, int presses) {
     return std::clamp(error_px * std::exp2(presses / 2.0), 1.0 / 16, 256.0);
 }
 
+void press(FrameStyle& style, const Presses& presses) {
+    if (presses.error != 0) style.error_px = changed_error_px(style.error_px, presses.error);
+    for (int i = 0; i < presses.method; ++i) style.method = next(style.method);
+    if (presses.toggles_wireframe && style.method == Method::terrain) {
+        bool is_shaded = style.look.look == terrain::Look::shaded;
+        style.look.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;
+    }
+    if (presses.toggles_sources && style.method == Method::lod_sprite) style.shows_sources = !style.shows_sources;
+}
+
 }  // namespace overlook::player

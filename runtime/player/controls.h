@@ -1,7 +1,8 @@
-// Flying by hand: what keys and mouse do to the camera. Knows nothing of windows.
+// Flying by hand: what keys and mouse do to the camera and to how it is drawn. Knows nothing of windows.
 #pragma once
 
 #include "formats/terrain.h"
+#include "runtime/player/scene.h"
 #include "runtime/view/camera.h"
 
 namespace overlook::player {
@@ -27,5 +28,13 @@ void fly(view::Camera& camera, Flyer& flyer, const Input& input, double dt_s, co
 
 // The asked error after one press of + (coarser) or - (finer): a factor of 2^(1/2), from 1/16 to 256 pixels.
 double changed_error_px(double error_px, int presses);
+
+// Keys pressed in one frame that change how it is drawn.
+struct Presses {
+    int error = 0;                                            // +, less -
+    int method = 0;                                           // M
+    bool toggles_wireframe = false, toggles_sources = false;  // F, of terrain; K, of lod-sprite
+};
+void press(FrameStyle& style, const Presses& presses);
 
 }  // namespace overlook::player

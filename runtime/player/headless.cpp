@@ -34,7 +34,10 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     command::Progress progress(common, "drawing");
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
         view::Camera camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
-        records.push_back(scene.draw(*target, camera, controller.error_px(), plan.options.morph, plan.draw));
+        Result<FrameRecord> record =
+            scene.draw(*target, camera, {*plan.method, controller.error_px(), plan.options.morph, false, plan.draw});
+        if (!record) return tl::unexpected(record.error());
+        records.push_back(*record);
         controller.frame_done(cost_of(plan.options, records.back()));
         if (Result<void> written = write_picture(plan, *target, frame, frame + 1 == frame_count); !written) return written;
         progress.set(double(frame + 1) / frame_count);

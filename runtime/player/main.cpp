@@ -15,6 +15,9 @@ int play(const Options& options, const command::Common& common) {
     Result<Scene> scene = Scene::read(options.file);
     if (!scene) return command::fail("player", scene.error());
 
+    Result<void> fit = check_fit(options, plan->method.value_or(scene->method()));
+    if (!fit) return command::fail("player", fit.error());
+
     bool is_headless = options.headless;
     if (!is_headless && !options.image.empty() && !has_display()) {
         command::note(common, "player: there is no display; drawing the picture without a window");

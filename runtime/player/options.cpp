@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "runtime/player/record.h"
 
@@ -62,6 +63,19 @@ bool find_number(const std::string& pattern, NumberPlace& place) {
 
 }  // namespace
 
+Result<void> check_fit(const Options& options, Method method) {
+    if (method == Method::terrain) return {};
+    const std::pair<const char*, bool> kOfTerrain[] = {{"--triangles", options.triangles > 0},
+                                                       {"--frame-ms", options.frame_ms > 0},
+                                                       {"--morph", options.sets_morph},
+                                                       {"--wireframe", options.wireframe},
+                                                       {"--split-picture", options.split_picture}};
+    for (const auto& [name, is_given] : kOfTerrain) {
+        if (is_given) return bad_command("{}: {} does not take it; --method terrain does", name, name_of(method));
+    }
+    return {};
+}
+
 void choose_samples(Plan& plan, bool is_software, bool is_window) {
     if (plan.options.samples == 0) plan.options.samples = is_software && is_window ? 1 : 4;
     // Software draws anisotropic texels four to eight times as slowly, and Mesa 22.3's llvmpipe has been seen to stop at them
@@ -85,6 +99,10 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--frames", options.frames, "Frames to draw; then end. Of a flight at most these")->type_name("N");
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
+    app.add_option("--method", options.method,
+                   "What to draw with: terrain, lod-sprite or lod-sprite:paper; default what the scene says, or terrain. In the "
+                   "window M changes it, K shows what lod-sprite takes from where")
+        ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,
                                             "Triangles a frame at most: the error rises above --error-px where it must")
                                  ->type_name("N");
@@ -94,7 +112,8 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option(
            "--morph", options.morph,
            "Vertices glide to their place as their error grows from 1/(1 + this) of the error asked to all of it; 0 = they pop")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->each([&options](const std::string&) { options.sets_morph = true; });
     app.add_option("--error-px", options.error_px, "Nothing in the picture is displaced by more than this")
         ->type_name("PIXELS")
         ->capture_default_str()
@@ -140,6 +159,12 @@ Result<Plan> plan_from(const Options& options) {
     if (Result<void> size = parse_size(options.size, plan.width_px, plan.height_px); !size) return tl::unexpected(size.error());
     if (Result<std::string> path = image_path(options.image, 0); !path) return tl::unexpected(path.error());
 
+    if (!options.method.empty()) {
+        Result<Method> method = parse_method(options.method);
+        if (!method) return tl::unexpected(method.error());
+        if (Result<void> fit = check_fit(options, *method); !fit) return tl::unexpected(fit.error());
+        plan.method = *method;
+    }
     for (const std::string& text : options.cameras) {
         Result<view::Camera> camera = view::parse_camera(text);
         if (!camera) return tl::unexpected(camera.error());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "formats/result.h"
 #include "formats/scene.h"
 #include "runtime/command/command.h"
+#include "runtime/player/method.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/view/camera.h"
 
@@ -28,11 +30,12 @@ struct Options {
     uint64_t triangles = 0;  // budgets of a frame, 0 = none; at most one of the two
     double frame_ms = 0;
     double morph = terrain::kDefaultMorph;  // 0 = vertices pop; as Refiner::cut_by_pixels
+    std::string method;                     // empty = what the scene says, or terrain
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;
-    bool sets_error_px = false, sets_haze = false;  // on the command line, which goes before the scene
-    uint32_t samples = 0;                           // a pixel; 0 = settled by choose_samples
+    bool sets_error_px = false, sets_haze = false, sets_morph = false;  // on the command line, which goes before the scene
+    uint32_t samples = 0;                                               // a pixel; 0 = settled by choose_samples
 };
 
 // The same, understood.
@@ -42,12 +45,17 @@ struct Plan {
     scene::Flight flight;  // the cameras, or --flight's; no keys = an overview, until settle() of scene.h
     view::Camera base;     // what the flight does not say
     terrain::DrawOptions draw;
+    std::optional<Method> method;  // --method; else the scene's, until settle() of scene.h
 };
 
 void add_options(CLI::App& app, Options& options);
 
 // Fails with Exit::bad_command and a line that names the option, or as scene::read_flight.
 Result<Plan> plan_from(const Options& options);
+
+// Fails with Exit::bad_command if an option asks for what only terrain can do:
+//   "--triangles: lod-sprite does not take it; --method terrain does"
+Result<void> check_fit(const Options& options, Method method);
 
 // Settles the samples a pixel, if none were asked for: 4, but 1 in a window that the processor draws, which would else be too
 // slow to fly. With 1 the texture is filtered the fast way as well.

@@ -15,6 +15,28 @@ std::string megabytes(uint64_t bytes) {
     return fmt::format("{:.2f} MB", double(bytes) / 1e6);
 }
 
+// Which method draws; of LOD-sprite what its keys do.
+void method_lines(const OverlayText& text) {
+    text_line(fmt::format("method {}", name_of(text.method)));
+    if (!text.frame->sprite) return;
+    const lod_sprite::FrameCounts& sprite = *text.frame->sprite;
+    std::string last = text.keys.cause == lod_sprite::Cause::none
+                           ? "none in use yet"
+                           : fmt::format("the last {} frames ago: {}", text.keys.frames_ago, name_of(text.keys.cause));
+    text_line(fmt::format("keys   {} live, {}", sprite.live_key_count, last));
+    text_line(fmt::format("       {} triangles into keys in this frame", sprite.key_triangle_count));
+    if (text.method == Method::lod_sprite_paper) return;  // which predicts neither
+    text_line(fmt::format("       {:.2f} px the p99 predicted, {:.2f} px the most; {:.2f} % lost", sprite.error_p99_px,
+                          sprite.error_max_px, 100 * sprite.lost_share));
+    if (text.shows_sources) text_line("grey: key; yellow: another key; blue: near geometry; red: no key shows it");
+}
+
+// What the keys do with this method.
+std::string key_line(Method method) {
+    std::string looks = method == Method::terrain ? "F wireframe, " : method == Method::lod_sprite ? "K sources, " : "";
+    return "+ - error, M method, " + looks + "H this text, P picture, R record, Esc ends";
+}
+
 }  // namespace
 
 Overlay::Overlay(GLFWwindow* window) {
@@ -43,14 +65,15 @@ void Overlay::draw(const OverlayText& text) {
     ImGui::Begin("Overlook", nullptr, plain);
     text_line(fmt::format("{} triangles, {} vertices tested, {} sent", text.frame->triangle_count, text.frame->tested_count,
                           megabytes(text.frame->uploaded_bytes)));
+    method_lines(text);
     text_line(fmt::format("refine {:6.2f} ms   draw {:6.2f} ms", text.frame->refine_ms, text.frame->draw_ms));
-    text_line(fmt::format("error  {:.3g} px asked, {:.3g} px predicted", text.error_px, text.frame->predicted_error_px));
+    text_line(fmt::format("error  {:.3g} px asked, {:.2f} px predicted", text.error_px, text.frame->predicted_error_px));
     text_line(fmt::format("speed  x {:.3g}", text.speed_factor));
     text_line(fmt::format("{} x {}, {}{}", text.width_px, text.height_px, text.renderer->name,
                           text.renderer->is_software ? " (software)" : ""));
     ImGui::Separator();
     text_line("W A S D move, Q E down/up, mouse looks, Shift faster, wheel speed");
-    text_line("+ - error, F wireframe, H this text, P picture, R record, Esc ends");
+    text_line(key_line(text.method));
     if (text.is_recording) text_line("recording; R ends it");
     ImGui::End();
     ImGui::Render();

@@ -11,6 +11,9 @@ namespace overlook::player {
 struct OverlayText {
     const FrameRecord* frame = nullptr;
     const gl::Renderer* renderer = nullptr;
+    Method method = Method::terrain;
+    bool shows_sources = false;
+    KeyWatch keys;
     double error_px = 1;
     double speed_factor = 1;
     uint32_t width_px = 0, height_px = 0;

@@ -1,10 +1,12 @@
 #include "runtime/player/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "formats/atomic_file.h"
@@ -29,14 +31,63 @@ Json summary_of(const std::vector<double>& values) {
 }
 
 Json frame_json(const FrameRecord& frame) {
-    return {{"triangles", frame.triangle_count},
-            {"void_rim_triangles", frame.void_rim_triangle_count},
-            {"tested", frame.tested_count},
-            {"refine_ms", frame.refine_ms},
-            {"draw_ms", frame.draw_ms},
-            {"uploaded_bytes", frame.uploaded_bytes},
-            {"asked_error_px", frame.asked_error_px},
-            {"predicted_error_px", frame.predicted_error_px}};
+    Json json = {{"triangles", frame.triangle_count},
+                 {"void_rim_triangles", frame.void_rim_triangle_count},
+                 {"tested", frame.tested_count},
+                 {"refine_ms", frame.refine_ms},
+                 {"draw_ms", frame.draw_ms},
+                 {"uploaded_bytes", frame.uploaded_bytes},
+                 {"asked_error_px", frame.asked_error_px},
+                 {"predicted_error_px", frame.predicted_error_px}};
+    if (!frame.sprite) return json;
+    const lod_sprite::FrameCounts& sprite = *frame.sprite;
+    json["key_triangles"] = sprite.key_triangle_count;
+    json["key_pixels"] = sprite.key_pixel_count;
+    json["keys"] = sprite.live_key_count;
+    json["rekeyed"] = std::string(lod_sprite::name_of(sprite.rekeyed));
+    json["lost_share"] = sprite.lost_share;
+    return json;
+}
+
+bool has_sprites(const std::vector<FrameRecord>& frames) {
+    return std::any_of(frames.begin(), frames.end(), [](const FrameRecord& frame) { return frame.sprite.has_value(); });
+}
+
+// Frames with which a new key took over, for this reason; for any without one.
+uint64_t rekeyed_count(const std::vector<FrameRecord>& frames, std::optional<lod_sprite::Cause> cause) {
+    return uint64_t(std::count_if(frames.begin(), frames.end(), [&](const FrameRecord& frame) {
+        if (!frame.sprite || frame.sprite->rekeyed == lod_sprite::Cause::none) return false;
+        return !cause || frame.sprite->rekeyed == *cause;
+    }));
+}
+
+uint64_t key_triangles(const std::vector<FrameRecord>& frames) {
+    uint64_t sum = 0;
+    for (const FrameRecord& frame : frames) sum += frame.sprite ? frame.sprite->key_triangle_count : 0;
+    return sum;
+}
+
+constexpr std::array<lod_sprite::Cause, 5> kCauses = {lod_sprite::Cause::first, lod_sprite::Cause::jump, lod_sprite::Cause::error,
+                                                      lod_sprite::Cause::magnified, lod_sprite::Cause::turned};
+
+// {"first": 1, "error": 3, ...}: how often why.
+Json causes_of(const std::vector<FrameRecord>& frames) {
+    Json causes = Json::object();
+    for (lod_sprite::Cause cause : kCauses) causes[std::string(lod_sprite::name_of(cause))] = rekeyed_count(frames, cause);
+    return causes;
+}
+
+// ", 4 keyframes of 81,920 triangles in all (1 first, 3 error)", or nothing.
+std::string keyframes_text(const std::vector<FrameRecord>& frames) {
+    if (!has_sprites(frames)) return "";
+    std::string why;
+    for (lod_sprite::Cause cause : kCauses) {
+        uint64_t count = rekeyed_count(frames, cause);
+        if (count > 0) why += fmt::format("{}{} {}", why.empty() ? " (" : ", ", count, lod_sprite::name_of(cause));
+    }
+    uint64_t keyframes = rekeyed_count(frames, std::nullopt);
+    return fmt::format(", {} keyframe{} of {} triangles in all{}", with_commas(keyframes), keyframes == 1 ? "" : "s",
+                       with_commas(key_triangles(frames)), why.empty() ? "" : why + ")");
 }
 
 Json summaries(const std::vector<FrameRecord>& frames) {
@@ -64,11 +115,16 @@ std::string report_json(const Plan& plan, const gl::Renderer& renderer, const st
         {"width_px", plan.width_px},
         {"height_px", plan.height_px},
         {"samples", plan.options.samples},
+        {"method", std::string(name_of(plan.method.value_or(Method::terrain)))},
         {"error_px", plan.options.error_px},
         {"morph", plan.options.morph},
         {"summary", summaries(frames)},
         {"frames", Json::array()},
     };
+    if (has_sprites(frames)) {
+        report["keyframes"] = {
+            {"count", rekeyed_count(frames, std::nullopt)}, {"triangles", key_triangles(frames)}, {"causes", causes_of(frames)}};
+    }
     for (const FrameRecord& frame : frames) report["frames"].push_back(frame_json(frame));
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -79,11 +135,11 @@ std::string summary_line(const Plan& plan, const gl::Renderer& renderer, const s
         return percentile(values_of(frames, [member](const FrameRecord& frame) { return double(frame.*member); }), 0.5);
     };
     return fmt::format(
-        "{} frame{} of {} triangles, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
+        "{} frame{} of {} triangles{}, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
         "{:.2f} px",
         with_commas(frames.size()), frames.size() == 1 ? "" : "s", with_commas(uint64_t(middle(&FrameRecord::triangle_count))),
-        middle(&FrameRecord::refine_ms), middle(&FrameRecord::draw_ms), renderer.name, renderer.is_software ? " (software)" : "",
-        plan.options.error_px, middle(&FrameRecord::predicted_error_px));
+        keyframes_text(frames), middle(&FrameRecord::refine_ms), middle(&FrameRecord::draw_ms), renderer.name,
+        renderer.is_software ? " (software)" : "", plan.options.error_px, middle(&FrameRecord::predicted_error_px));
 }
 
 Result<void> deliver_report(const Plan& plan, const command::Common& common, const gl::Renderer& renderer,

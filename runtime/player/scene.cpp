@@ -14,34 +14,32 @@ namespace overlook::player {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> kTerrainSettings = {"error_px"};
-
-// The settings of a layer of terrain, put where they act.
-Result<void> apply_settings(const std::string& path, scene::Scene& described) {
-    for (const auto& [name, value] : described.layers.front().settings) {
-        if (name != kTerrainSettings[0]) {
-            return bad_input("{}: /layers/0/settings/{}: terrain has no such setting; did you mean {}?", path, name.substr(0, 64),
-                             json::nearest(name.substr(0, 64), kTerrainSettings));
-        }
-        const double* error_px = std::get_if<double>(&value);
-        if (error_px == nullptr || !(*error_px >= 0.001 && *error_px <= 10000))
-            return bad_input("{}: /layers/0/settings/{}: a number from 0.001 to 10000 is wanted", path, name);
-        described.error_px = *error_px;
-    }
-    return {};
-}
-
 Result<scene::Scene> read_described(const std::string& path) {
     Result<scene::Scene> described = scene::read_scene(path);
     if (!described) return described;
-    const scene::Layer& layer = described->layers.front();
     if (described->layers.size() > 1)
         return impossible("{}: /layers/1: the player draws one terrain at a time; leave one layer", path);
-    if (layer.method != "terrain")
-        return impossible("{}: /layers/0/method: the player cannot draw {} yet; it draws terrain", path, layer.method);
-    if (!layer.variant.empty()) return bad_input("{}: /layers/0/method: terrain has no variant {}", path, layer.variant);
-    if (Result<void> applied = apply_settings(path, *described); !applied) return tl::unexpected(applied.error());
     return described;
+}
+
+// By either form of LOD-sprite.
+template <class FrameDrawer>
+Result<void> draw_sprite(FrameDrawer& frames, const gl::Target& target, const view::Camera& local, FrameRecord& record) {
+    gl::Timer deciding;
+    frames.decide(local);
+    record.refine_ms = deciding.elapsed_ms();
+
+    gl::Timer drawing;
+    Result<lod_sprite::FrameCounts> drawn = frames.draw(target);
+    if (!drawn) return tl::unexpected(drawn.error());
+    record.draw_ms = drawing.finished_ms();
+
+    record.triangle_count = drawn->triangle_count;
+    record.tested_count = drawn->tested_count;
+    record.predicted_error_px = drawn->error_p99_px;
+    record.uploaded_bytes = drawn->uploaded_bytes;
+    record.sprite = *drawn;
+    return {};
 }
 
 }  // namespace
@@ -53,6 +51,9 @@ Result<Scene> Scene::read(const std::string& path) {
         Result<scene::Scene> described = read_described(path);
         if (!described) return tl::unexpected(described.error());
         scene.described_ = std::move(*described);
+        Result<LayerMethod> layer = layer_method_of(path, scene.described_);
+        if (!layer) return tl::unexpected(layer.error());
+        scene.layer_ = *layer;
         asset = scene::asset_path(path, scene.described_.layers.front());
     } else {
         scene.described_.layers.emplace_back();
@@ -71,6 +72,16 @@ Result<void> Scene::upload() {
     return {};
 }
 
+void watch(KeyWatch& keys, const FrameRecord& frame) {
+    if (!frame.sprite || frame.sprite->live_key_count == 0) {
+        keys = {};
+    } else if (frame.sprite->rekeyed != lod_sprite::Cause::none) {
+        keys = {frame.sprite->rekeyed, 0};
+    } else {
+        ++keys.frames_ago;
+    }
+}
+
 view::ErrorBudget budget_of(const Options& options, double least_error_px) {
     if (options.triangles > 0) return {double(options.triangles), least_error_px, false};
     return {options.frame_ms, least_error_px, true};
@@ -80,30 +91,70 @@ double cost_of(const Options& options, const FrameRecord& frame) {
     return options.triangles > 0 ? double(frame.triangle_count) : frame.refine_ms + frame.draw_ms;
 }
 
-FrameRecord Scene::draw(const gl::Target& target, const view::Camera& camera, double error_px, double morph,
-                        const terrain::DrawOptions& options) {
+Result<FrameRecord> Scene::draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) {
     assert(drawing_.has_value());
-    FrameRecord record;
     view::Camera local = terrain::with_clear_near_plane(*terrain_, view::camera_into(transform(), camera));
+    bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
+    if (!goes_on) paper_.reset();
+    if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));
+    last_method_ = style.method;
+    last_error_px_ = style.error_px;
+
+    FrameRecord record;
+    record.asked_error_px = style.error_px;
+    if (style.method == Method::terrain) {
+        draw_terrain(target, local, style, record);
+        return record;
+    }
+    Result<void> ready = ready_sprite(style);
+    if (!ready) return tl::unexpected(ready.error());
+    Result<void> drawn = style.method == Method::lod_sprite ? draw_sprite(*sprite_, target, local, record)
+                                                            : draw_sprite(*paper_, target, local, record);
+    if (!drawn) return tl::unexpected(drawn.error());
+    return record;
+}
+
+// Whoever draws this method's sprites, with this error.
+Result<void> Scene::ready_sprite(const FrameStyle& style) {
+    terrain::DrawOptions look = style.look;
+    look.look = terrain::Look::shaded;
+    if (style.method == Method::lod_sprite_paper) {
+        if (paper_) return {};
+        lod_sprite::paper::FrameOptions options = with_error(layer_.paper, style.error_px);
+        options.look = look;
+        paper_ = std::make_unique<lod_sprite::paper::FrameDrawer>(*terrain_, *refiner_, *drawing_, options);
+        return {};
+    }
+    if (!sprite_) {
+        lod_sprite::FrameOptions options = with_error(layer_.sprite, style.error_px);
+        options.look = look;
+        auto made = lod_sprite::FrameDrawer::make(*refiner_, *drawing_, options);
+        if (!made) return tl::unexpected(made.error());
+        sprite_ = std::move(*made);
+    }
+    sprite_->show_sources(style.shows_sources || layer_.sprite.draw.shows_sources);
+    return {};
+}
+
+void Scene::draw_terrain(const gl::Target& target, const view::Camera& local, const FrameStyle& style, FrameRecord& record) {
     gl::Timer refining;
-    refiner_->cut_by_pixels(local, error_px, cut_, morph);
+    refiner_->cut_by_pixels(local, style.error_px, cut_, style.morph);
     record.refine_ms = refining.elapsed_ms();
 
     gl::Timer drawing;
-    drawing_->draw(target, cut_, local, options);
+    drawing_->draw(target, cut_, local, style.look);
     record.draw_ms = drawing.finished_ms();
 
     record.triangle_count = cut_.triangle_count();
     record.void_rim_triangle_count = cut_.void_rim_triangle_count;
     record.tested_count = cut_.tested_count;
-    record.asked_error_px = error_px;
     record.predicted_error_px = cut_.predicted_error_px;
     record.uploaded_bytes = drawing_->uploaded_bytes();
-    return record;
 }
 
 void settle(Plan& plan, const Scene& scene) {
     const scene::Scene& described = scene.described();
+    plan.method = plan.method.value_or(scene.method());
     if (!plan.options.sets_error_px) plan.options.error_px = described.error_px;
     if (!plan.options.sets_haze) plan.draw.haze = described.light.haze;
     plan.base.fov_y_deg = described.camera.fov_y_deg;

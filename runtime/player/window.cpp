@@ -29,16 +29,16 @@ using WindowHandle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
 // What GLFW's callbacks collect between two frames.
 struct Events {
     double wheel = 0;
-    int error_presses = 0;
-    bool toggle_wireframe = false, toggle_overlay = false, take_picture = false, toggle_recording = false;
+    Presses presses;
+    bool toggle_overlay = false, take_picture = false, toggle_recording = false;
 };
 
 // The state of a window flight that lasts over frames.
 struct Flight {
     view::Camera camera;
     Flyer flyer;
-    double error_px = 1;
-    terrain::DrawOptions draw;
+    FrameStyle style;  // its error is the one asked for; a budget may raise the frame's
+    KeyWatch keys;
     bool shows_overlay = true;
     uint32_t picture_count = 0;
     double mouse_x_px = 0, mouse_y_px = 0;
@@ -78,7 +78,13 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
             glfwSetWindowShouldClose(window, GLFW_TRUE);
             break;
         case GLFW_KEY_F:
-            events.toggle_wireframe = !events.toggle_wireframe;
+            events.presses.toggles_wireframe = !events.presses.toggles_wireframe;
+            break;
+        case GLFW_KEY_K:
+            events.presses.toggles_sources = !events.presses.toggles_sources;
+            break;
+        case GLFW_KEY_M:
+            if (action == GLFW_PRESS) ++events.presses.method;
             break;
         case GLFW_KEY_H:
             events.toggle_overlay = !events.toggle_overlay;
@@ -91,11 +97,11 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
             break;
         case GLFW_KEY_EQUAL:
         case GLFW_KEY_KP_ADD:
-            ++events.error_presses;
+            ++events.presses.error;
             break;
         case GLFW_KEY_MINUS:
         case GLFW_KEY_KP_SUBTRACT:
-            --events.error_presses;
+            --events.presses.error;
             break;
         default:
             break;
@@ -133,13 +139,11 @@ Input read_input(GLFWwindow* window, const Events& events, Flight& flight) {
     return input;
 }
 
-void apply(const Events& events, Flight& flight) {
-    flight.error_px = events.error_presses == 0 ? flight.error_px : changed_error_px(flight.error_px, events.error_presses);
-    if (events.toggle_overlay) flight.shows_overlay = !flight.shows_overlay;
-    if (events.toggle_wireframe) {
-        bool is_shaded = flight.draw.look == terrain::Look::shaded;
-        flight.draw.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;
-    }
+// A budget raises the error of terrain alone.
+FrameStyle style_of(const Flight& flight, const view::ErrorController& controller) {
+    FrameStyle style = flight.style;
+    if (style.method == Method::terrain) style.error_px = controller.error_px();
+    return style;
 }
 
 // The hands act in the terrain's own frame.
@@ -198,8 +202,8 @@ void show(GLFWwindow* window, const gl::Target& target, const Flight& flight, co
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     target.show(target.width_px(), target.height_px());
     if (flight.shows_overlay) {
-        overlay.draw({&record, &renderer, record.asked_error_px, flight.flyer.speed_factor, target.width_px(), target.height_px(),
-                      flight.recording.has_value()});
+        overlay.draw({&record, &renderer, flight.style.method, flight.style.shows_sources, flight.keys, record.asked_error_px,
+                      flight.flyer.speed_factor, target.width_px(), target.height_px(), flight.recording.has_value()});
     }
     glfwSwapBuffers(window);
 }
@@ -216,9 +220,8 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
 
     Flight flight;
     flight.camera = view::camera_at(plan.flight, 0, plan.base);
-    flight.error_px = plan.options.error_px;
-    view::ErrorController controller(budget_of(plan.options, flight.error_px));
-    flight.draw = plan.draw;
+    flight.style = {*plan.method, plan.options.error_px, plan.options.morph, false, plan.draw};
+    view::ErrorController controller(budget_of(plan.options, flight.style.error_px));
     std::optional<gl::Target> target;
     std::vector<FrameRecord> records;
     double last_s = glfwGetTime();
@@ -228,7 +231,8 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         glfwPollEvents();
         double now_s = glfwGetTime();
         Input input = read_input(window, events, flight);
-        apply(events, flight);
+        press(flight.style, events.presses);
+        if (events.toggle_overlay) flight.shows_overlay = !flight.shows_overlay;
         if (frame_count > 0 && plan.flight.keys.size() > 1)
             flight.camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
         else
@@ -243,16 +247,18 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         }
         flight.camera.width_px = target->width_px();
         flight.camera.height_px = target->height_px();
-        if (events.error_presses != 0) controller.set_budget(budget_of(plan.options, flight.error_px));
-        FrameRecord record = scene.draw(*target, flight.camera, controller.error_px(), plan.options.morph, flight.draw);
-        controller.frame_done(cost_of(plan.options, record));
-        show(window, *target, flight, record, renderer, overlay);
+        if (events.presses.error != 0) controller.set_budget(budget_of(plan.options, flight.style.error_px));
+        Result<FrameRecord> record = scene.draw(*target, flight.camera, style_of(flight, controller));
+        if (!record) return tl::unexpected(record.error());
+        if (flight.style.method == Method::terrain) controller.frame_done(cost_of(plan.options, *record));
+        watch(flight.keys, *record);
+        show(window, *target, flight, *record, renderer, overlay);
         if (events.take_picture) {
             if (Result<void> taken = take_picture(*target, common, flight); !taken) return taken;
         }
         ++frame;
         if (frame_count > 0) {
-            records.push_back(record);
+            records.push_back(*record);
             if (Result<void> written = write_picture(plan, *target, frame - 1, frame == frame_count); !written) return written;
         }
     }

@@ -164,8 +164,20 @@ TEST_F(Player, RefusesScenesThatItCannotDraw) {
     for (const Case& c : std::initializer_list<Case>{
              {R"({"asset":"hills.ovl","method":"terrain"},{"asset":"hills.ovl","method":"terrain"})", 5,
               "scene.json: /layers/1: the player draws one terrain at a time; leave one layer\n"},
-             {R"({"asset":"hills.ovl","method":"lod-sprite:paper"})", 5,
-              "scene.json: /layers/0/method: the player cannot draw lod-sprite yet; it draws terrain\n"},
+             {R"({"asset":"hills.ovl","method":"caveclod"})", 5,
+              "scene.json: /layers/0/method: the player cannot draw caveclod yet; it draws terrain and lod-sprite\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite:papr"})", 3,
+              "scene.json: /layers/0/method: lod-sprite has no variant papr\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"low_eror_px":4}})", 3,
+              "scene.json: /layers/0/settings/low_eror_px: lod-sprite has no such setting; did you mean low_error_px?\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite:paper","settings":{"strip":true}})", 3,
+              "/layers/0/settings/strip: lod-sprite:paper has no such setting; did you mean strips?\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"key_scale":1.5}})", 3,
+              "scene.json: /layers/0/settings/key_scale: a whole number from 1 to 4 is wanted\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"sliced":1}})", 3,
+              "scene.json: /layers/0/settings/sliced: true or false is wanted\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"error_px":2,"low_error_px":1}})", 3,
+              "scene.json: /layers/0/settings/low_error_px: 1 is less than the error_px of 2\n"},
              {R"({"asset":"hills.ovl","method":"terrain:paper"})", 3,
               "scene.json: /layers/0/method: terrain has no variant paper\n"},
              {R"({"asset":"hills.ovl","method":"terrain","settings":{"eror_px":1}})", 3,
@@ -182,6 +194,138 @@ TEST_F(Player, RefusesScenesThatItCannotDraw) {
     EXPECT_EQ(play(file_ + " --headless --flight " + in_folder("flight.json")), 3);
     EXPECT_TRUE(output_.ends_with("flight.json:2:8: /keys: has 0 items; 1 to 65536 are wanted\n")) << output_;
     EXPECT_EQ(play(file_ + " --headless --camera 1,2,3,0,0 --flight " + in_folder("flight.json")), 2) << output_;
+}
+
+constexpr const char* kSouthToNorth =
+    " --headless --size 96x64 --frames 24 --camera 320,-900,300,0,-15 --camera 320,-700,300,10,-15";
+
+TEST_F(Player, DrawsByLodSpriteAndReportsItsKeyframes) {
+    std::string picture = " --samples 1 --report " + in_folder("report.json") + " --image ";
+    ASSERT_EQ(play(file_ + kSouthToNorth + picture + in_folder("terrain.png")), 0) << output_;
+    EXPECT_EQ(report()["method"], "terrain");
+    EXPECT_FALSE(report().contains("keyframes"));
+    EXPECT_EQ(output_.find("keyframe"), std::string::npos) << output_;
+    for (std::string method : {"lod-sprite", "lod-sprite:paper"}) {
+        std::string image = method == "lod-sprite" ? "sprite.png" : "paper.png";
+        ASSERT_EQ(play(file_ + kSouthToNorth + picture + in_folder(image) + " --method " + method), 0) << output_;
+        nlohmann::json json = report();
+        EXPECT_EQ(json["method"], method);
+        EXPECT_NE(bytes(image), bytes("terrain.png"));
+        uint64_t keyframes = 0, key_triangles = 0, causes = 0;
+        for (const auto& frame : json["frames"]) {
+            keyframes += frame["rekeyed"] != "none";
+            key_triangles += frame["key_triangles"].get<uint64_t>();
+            EXPECT_LE(frame["key_triangles"], frame["triangles"]);
+        }
+        for (const auto& count : json["keyframes"]["causes"]) causes += count.get<uint64_t>();
+        EXPECT_GE(keyframes, 1u);
+        EXPECT_EQ(json["keyframes"]["count"], keyframes);
+        EXPECT_EQ(json["keyframes"]["triangles"], key_triangles);
+        EXPECT_EQ(json["keyframes"]["causes"]["first"], 1);
+        EXPECT_EQ(causes, keyframes);
+        std::string said = std::to_string(keyframes) + " keyframe" + (keyframes == 1 ? " of " : "s of ");
+        EXPECT_NE(output_.find(said), std::string::npos) << output_;
+        EXPECT_NE(output_.find("1 first"), std::string::npos) << output_;
+    }
+}
+
+TEST_F(Player, TakesMethodAndSettingsFromTheScene) {
+    write("scene.json", R"({"version":1,"error_px":2,"layers":[{"asset":"hills.ovl","method":"lod-sprite",
+        "settings":{"low_error_px":8,"key_scale":1,"sliced":false}}]})");
+    std::string options = kSouthToNorth + (" --report " + in_folder("report.json"));
+    ASSERT_EQ(play(in_folder("scene.json") + options), 0) << output_;
+    nlohmann::json coarse = report();
+    EXPECT_EQ(coarse["method"], "lod-sprite");
+    EXPECT_EQ(coarse["error_px"], 2);
+    EXPECT_EQ(coarse["frames"][0]["rekeyed"], "first");  // not sliced: at once
+    uint64_t texels = coarse["frames"][0]["key_pixels"];
+    EXPECT_GT(texels, 96u * 64u);
+    EXPECT_LT(texels, 2 * 96u * 64u);  // one a pixel, with the guard band
+
+    // The command line goes before the scene; what the scene promises elsewhere keeps its ratio to the error.
+    ASSERT_EQ(play(in_folder("scene.json") + options + " --error-px 0.25"), 0) << output_;
+    EXPECT_GT(report()["summary"]["triangles"]["p50"], coarse["summary"]["triangles"]["p50"]);
+    ASSERT_EQ(play(in_folder("scene.json") + options + " --method terrain"), 0) << output_;
+    EXPECT_EQ(report()["method"], "terrain");
+}
+
+TEST_F(Player, RefusesWhatAMethodCannotDo) {
+    for (std::string option : {"--triangles", "--frame-ms", "--morph", "--wireframe", "--split-picture"}) {
+        bool has_value = option == "--triangles" || option == "--frame-ms" || option == "--morph";
+        std::string whole = option + (has_value ? " 1" : "");
+        for (std::string method : {"lod-sprite", "lod-sprite:paper"}) {
+            std::string says = "player: " + option + ": " + method + " does not take it; --method terrain does\n";
+            EXPECT_EQ(play(file_ + " --headless --method " + method + " " + whole), 2);
+            EXPECT_EQ(output_, says);
+            write("scene.json", R"({"version":1,"layers":[{"asset":"hills.ovl","method":")" + method + R"("}]})");
+            EXPECT_EQ(play(in_folder("scene.json") + " --headless " + whole), 2);
+            EXPECT_EQ(output_, says);
+            EXPECT_EQ(play(in_folder("scene.json") + " --headless --size 16x16 --method terrain " + whole), 0) << output_;
+        }
+    }
+    EXPECT_EQ(play(file_ + " --headless --method lod-sprit"), 2);
+    EXPECT_EQ(output_,
+              "player: --method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, "
+              "lod-sprite:paper)\n");
+}
+
+TEST_F(Player, DrawsLodSpriteInAWindowAsWithoutOne) {
+    if (std::system("command -v xvfb-run >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "xvfb-run is not installed: no window was opened";
+    std::string flown = file_ +
+                        " --method lod-sprite --samples 1 --size 160x120 --frames 24 --camera 320,-900,300,0,-15 "
+                        "--camera 320,-700,300,10,-15 --image ";
+    ASSERT_EQ(run("xvfb-run -a " + kPlayer + " " + flown + in_folder("window.png")), 0) << output_;
+    ASSERT_EQ(play(flown + in_folder("headless.png") + " --headless"), 0) << output_;
+    EXPECT_EQ(bytes("window.png"), bytes("headless.png"));
+}
+
+TEST(PressedKeys, ChangeTheMethodAndWhatItShows) {
+    player::FrameStyle style;
+    player::Presses wireframe, sources, method;
+    wireframe.toggles_wireframe = sources.toggles_sources = true;
+    method.method = 1;
+    player::press(style, sources);
+    EXPECT_FALSE(style.shows_sources);  // terrain has none
+    player::press(style, wireframe);
+    EXPECT_EQ(style.look.look, terrain::Look::wireframe);
+    player::press(style, method);
+    EXPECT_EQ(style.method, player::Method::lod_sprite);
+    player::press(style, sources);
+    EXPECT_TRUE(style.shows_sources);
+    player::press(style, wireframe);
+    EXPECT_EQ(style.look.look, terrain::Look::wireframe);  // nothing of lod-sprite
+    player::press(style, method);
+    EXPECT_EQ(style.method, player::Method::lod_sprite_paper);
+    player::press(style, method);
+    EXPECT_EQ(style.method, player::Method::terrain);
+}
+
+TEST(WatchedKeys, TellWhenTheLastCameAndWhy) {
+    using lod_sprite::Cause;
+    player::KeyWatch keys;
+    player::FrameRecord frame;
+    frame.sprite.emplace();
+    player::watch(keys, frame);
+    EXPECT_EQ(keys.cause, Cause::none);
+    frame.sprite->live_key_count = 1;
+    frame.sprite->rekeyed = Cause::turned;
+    player::watch(keys, frame);
+    frame.sprite->rekeyed = Cause::none;
+    for (int i = 0; i < 3; ++i) player::watch(keys, frame);
+    EXPECT_EQ(keys.cause, Cause::turned);
+    EXPECT_EQ(keys.frames_ago, 3u);
+    player::watch(keys, {});  // by terrain
+    EXPECT_EQ(keys.cause, Cause::none);
+}
+
+TEST(LodSpriteError, CarriesTheOtherPromisesAlong) {
+    lod_sprite::FrameOptions options;
+    lod_sprite::set(options, "low-error-px", 12);
+    options = player::with_error(options, 2);
+    EXPECT_EQ(options.decide.error_px, 2);
+    EXPECT_EQ(options.decide.low_error_px, 24);
+    EXPECT_EQ(options.decide.key_error_px, 2);
 }
 
 // A flight by hand, at an uneven frame rate: turns over north, stops, climbs.

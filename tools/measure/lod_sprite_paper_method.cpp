@@ -1,108 +1,47 @@
 #include "tools/measure/lod_sprite_paper_method.h"
 
 #include <cassert>
-#include <optional>
-#include <span>
-#include <vector>
 
-#include "runtime/lod_sprite/draw_paper.h"
-#include "runtime/lod_sprite/paper_sprite.h"
+#include "runtime/lod_sprite/draw_paper_frames.h"
 
 namespace overlook::measure {
 namespace {
 
 using namespace lod_sprite;
 
-constexpr uint64_t kDrawCalls = 2;  // sky and ground
-
-paper::Options options_of(const MethodSpec& spec) {
-    paper::Options options;
-    options.key_error_px = setting(spec, "key-error-px");
-    options.error.plane = setting(spec, "drawn-plane") != 0 ? paper::Plane::drawn : paper::Plane::fan;
-    options.depth.thickness = setting(spec, "depth-thickness");
-    options.depth.space = setting(spec, "eye-depth") != 0 ? paper::DepthSpace::eye : paper::DepthSpace::window;
-    if (setting(spec, "strips") != 0) options.strips = paper::StripOptions{};
+paper::FrameOptions options_of(const World& world, const MethodSpec& spec) {
+    paper::FrameOptions options;
+    for (const SettingKind& kind : paper::setting_kinds()) paper::set(options, kind.name, setting(spec, std::string(kind.name)));
+    options.look = world.look;
     return options;
 }
 
 class LodSpritePaper : public Method {
   public:
     LodSpritePaper(World& world, const MethodSpec& spec)
-        : world_(world),
-          high_error_px_(setting(spec, "error-px")),
-          low_error_px_(setting(spec, "low-error-px")),
-          sprite_(*world.terrain, options_of(spec)) {}
+        : world_(world), frames_(*world.terrain, *world.refiner, *world.drawing, options_of(world, spec)) {}
 
-    void decide(const view::Camera& camera, uint32_t) override {
-        camera_ = camera;
-        is_kept_ = false;
-        counters_ = {};
-        world_.refiner->cut_by_pixels(camera, low_error_px_, low_);
-        counters_.tested_count = low_.tested_count;
-        decision_ = sprite_.decide(camera, low_);
-        if (decision_.is_key())
-            decide_key();
-        else
-            decide_novel();
-    }
+    void decide(const view::Camera& camera, uint32_t) override { frames_.decide(camera); }
 
+    // A keyframe is a frame of its own here: none of its triangles is drawn besides the picture's.
     Counters draw(const gl::Target& target) override {
-        if (!decision_.is_key()) {
-            drawing_->draw_novel(target, low_, flags_, sprite_.key_camera(), camera_, world_.look);
-        } else if (is_kept_) {
-            world_.drawing->draw(target, high_, camera_, world_.look);
-        } else {
-            take_key(target);
-        }
-        Counters counters = counters_;
-        counters.uploaded_bytes = drawing_->uploaded_bytes();
-        counters.resident_bytes = world_.resident_bytes + drawing_->resident_bytes() + counters.uploaded_bytes;
+        Result<FrameCounts> drawn = frames_.draw(target);
+        assert(drawn);  // pictures of this size are drawn into already
+        Counters counters;
+        counters.triangle_count = drawn->triangle_count;
+        counters.vertex_reference_count = drawn->vertex_reference_count;
+        counters.draw_call_count = drawn->draw_call_count;
+        counters.uploaded_bytes = drawn->uploaded_bytes;
+        counters.tested_count = drawn->tested_count;
+        counters.resident_bytes = world_.resident_bytes + drawn->resident_bytes + drawn->uploaded_bytes;
+        counters.event_count = drawn->rekeyed != Cause::none;
+        counters.predicted_error_px = drawn->error_p99_px;
         return counters;
     }
 
   private:
-    void decide_key() {
-        if (decision_.reason == paper::KeyReason::first) {
-            Result<paper::Drawing> made = paper::Drawing::make(*world_.drawing, camera_.width_px, camera_.height_px);
-            assert(made);  // pictures of this size are drawn into already
-            drawing_ = std::move(*made);
-        }
-        world_.refiner->cut_by_pixels(camera_, high_error_px_, high_);
-        counters_.tested_count += high_.tested_count;
-        counters_.event_count = 1;
-        counters_.predicted_error_px = high_.predicted_error_px;
-        count(high_.triangle_count(), high_.indices.size());
-    }
-    void decide_novel() {
-        flags_ = sprite_.flags(low_);
-        counters_.tested_count += decision_.error.quadrant_count;
-        counters_.predicted_error_px = decision_.error.rms_px;
-        count(low_.triangle_count(), low_.indices.size());
-    }
-    void take_key(const gl::Target& target) {
-        [[maybe_unused]] Result<void> drawn = drawing_->draw_key(target, high_, camera_, world_.look, depth_);
-        assert(drawn);
-        sprite_.keep(camera_, depth_, low_);
-        is_kept_ = true;
-        if (target.samples() > 1) count(high_.triangle_count(), high_.indices.size());
-    }
-    void count(uint64_t triangles, uint64_t references) {
-        counters_.triangle_count += triangles;
-        counters_.vertex_reference_count += references;
-        counters_.draw_call_count += kDrawCalls;
-    }
-
     World& world_;
-    double high_error_px_, low_error_px_;
-    paper::Sprite sprite_;
-    std::optional<paper::Drawing> drawing_;
-    view::Camera camera_;
-    terrain::Cut high_, low_;
-    paper::Decision decision_;
-    std::span<const uint8_t> flags_;
-    std::vector<float> depth_;
-    Counters counters_;
-    bool is_kept_ = false;
+    paper::FrameDrawer frames_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "formats/names.h"
-#include "runtime/lod_sprite/paper_visibility.h"
+#include "runtime/lod_sprite/draw_paper_frames.h"
 #include "runtime/terrain/refine.h"
 #include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
@@ -24,36 +24,22 @@ constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
-constexpr std::array<SettingKind, 17> kSpriteSettings = {kErrorPx,
-                                                         SettingKind{"low-error-px", 0.01, 1000, 16, false},
-                                                         SettingKind{"key-error-px", 0.01, 1000, 1, false},
-                                                         SettingKind{"key-scale", 1, 4, 2, true, true},
-                                                         SettingKind{"guard", 1, 3, 1.15, false, true},
-                                                         SettingKind{"slots", 2, 16, 4, true, true},
-                                                         SettingKind{"fade-frames", 0, 60, 8, true, true},
-                                                         SettingKind{"sliced", 0, 1, 1, true, true},
-                                                         SettingKind{"near", 0, 1, 1, true, true},
-                                                         SettingKind{"morph", 0, 1, 0, false, true},
-                                                         SettingKind{"tolerance-px", 0.05, 10, 0.5, false, true},
-                                                         SettingKind{"look-ups", 1, 16, 2, true, true},
-                                                         SettingKind{"outlines", 0, 1, 1, true, true},
-                                                         SettingKind{"slab-test", 0, 1, 1, true, true},
-                                                         SettingKind{"place-test", 0, 1, 1, true, true},
-                                                         SettingKind{"sources", 0, 1, 0, true, true},
-                                                         kSamples};
-constexpr std::array<SettingKind, 8> kSpritePaperSettings = {
-    kErrorPx,
-    SettingKind{"low-error-px", 0.01, 1000, 16, false},
-    SettingKind{"key-error-px", 0.001, 1000, 1, false},
-    SettingKind{"drawn-plane", 0, 1, 0, true, true},
-    SettingKind{"depth-thickness", 1e-9, 1e9, lod_sprite::paper::DepthTest{}.thickness, false, true},
-    SettingKind{"eye-depth", 0, 1, 0, true, true},
-    SettingKind{"strips", 0, 1, 0, true, true},
-    kSamples};
-constexpr std::array<MethodKind, 5> kKinds = {
-    MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
-    MethodKind{"lod-sprite", "", kSpriteSettings}, MethodKind{"lod-sprite", "paper", kSpritePaperSettings},
-    MethodKind{"full", "", kFullSettings}};
+// What runtime says of a method, and the samples of the pictures.
+std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
+    std::vector<SettingKind> all(settings.begin(), settings.end());
+    all.push_back(kSamples);
+    return all;
+}
+
+const std::array<MethodKind, 5>& kinds() {
+    static const std::vector<SettingKind> kSprite = with_samples(lod_sprite::setting_kinds());
+    static const std::vector<SettingKind> kSpritePaper = with_samples(lod_sprite::paper::setting_kinds());
+    static const std::array<MethodKind, 5> kKinds = {
+        MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
+        MethodKind{"lod-sprite", "", kSprite}, MethodKind{"lod-sprite", "paper", kSpritePaper},
+        MethodKind{"full", "", kFullSettings}};
+    return kKinds;
+}
 
 // A method as typed, with the settings that were given alone.
 struct Asked {
@@ -79,7 +65,7 @@ std::string suggestion(std::string_view word, const Kinds& kinds) {
 
 std::string known_names() {
     std::string names;
-    for (const MethodKind& kind : kKinds) {
+    for (const MethodKind& kind : kinds()) {
         if (kind.variant.empty()) names += (names.empty() ? "" : ", ") + std::string(kind.name);
     }
     return names;
@@ -136,14 +122,14 @@ Result<Asked> asked_from(std::string_view text) {
     std::string_view name = parts[0].substr(0, colon);
     std::string_view variant = colon == std::string_view::npos ? "" : parts[0].substr(colon + 1);
     auto has_name = [&](const MethodKind& known) { return known.name == name; };
-    if (std::none_of(kKinds.begin(), kKinds.end(), has_name)) {
-        std::string near = suggestion(name, kKinds);
+    if (std::none_of(kinds().begin(), kinds().end(), has_name)) {
+        std::string near = suggestion(name, kinds());
         return bad_command("--method {}: there is no such method{} (known: {})", text, near, known_names());
     }
-    auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+    auto kind = std::find_if(kinds().begin(), kinds().end(),
                              [&](const MethodKind& known) { return has_name(known) && known.variant == variant; });
     bool names_nothing = colon != std::string_view::npos && variant.empty();
-    if (kind == kKinds.end() || names_nothing) return bad_command("--method {}: {} has no such variant", text, name);
+    if (kind == kinds().end() || names_nothing) return bad_command("--method {}: {} has no such variant", text, name);
     Asked asked{&*kind, {std::string(name), std::string(variant), {}}, std::vector<bool>(kind->settings.size())};
     for (const SettingKind& known : kind->settings) asked.spec.settings.emplace_back(known.name, known.otherwise);
     for (size_t i = 1; i < parts.size(); ++i) {
@@ -186,7 +172,7 @@ std::string named(const MethodSpec& spec) {
 }  // namespace
 
 std::span<const MethodKind> method_kinds() {
-    return kKinds;
+    return kinds();
 }
 
 std::string family_of(const MethodSpec& spec) {
@@ -195,10 +181,10 @@ std::string family_of(const MethodSpec& spec) {
 
 std::string label_of(const MethodSpec& spec) {
     std::string label = named(spec);
-    auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+    auto kind = std::find_if(kinds().begin(), kinds().end(),
                              [&](const MethodKind& one) { return one.name == spec.name && one.variant == spec.variant; });
     for (const auto& [name, value] : spec.settings) {
-        const SettingKind* known = kind == kKinds.end() ? nullptr : &kind->settings[place_of(*kind, name)];
+        const SettingKind* known = kind == kinds().end() ? nullptr : &kind->settings[place_of(*kind, name)];
         bool goes_without_saying = known != nullptr && known->is_seldom && known->otherwise == value;
         if (!goes_without_saying) label += fmt::format("@{}={}", name, value);
     }

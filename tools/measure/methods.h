@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "formats/result.h"
+#include "formats/setting.h"
 #include "tools/measure/method.h"
 #include "tools/measure/world.h"
 
 namespace overlook::measure {
 
-struct SettingKind {
-    std::string_view name;
-    double least = 0, most = 0, otherwise = 0;
-    bool is_whole = false;
-    bool is_seldom = false;  // changed: labels name it only where it is not the default
-};
 struct MethodKind {
     std::string_view name, variant;  // "" = the default one
     std::span<const SettingKind> settings;

@@ -1,0 +1,193 @@
+#include "runtime/lod_sprite/draw_frames.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace overlook::lod_sprite {
+namespace {
+
+constexpr uint32_t kGridColumns = 64;  // of the depths that the director judges a key by
+
+struct KnownSetting {
+    SettingKind kind;
+    void (*set)(FrameOptions&, double);
+};
+
+std::vector<KnownSetting> make_settings() {
+    const FrameOptions is;
+    auto number = [](std::string_view name, double least, double most, double otherwise, bool is_seldom) {
+        return SettingKind{name, least, most, otherwise, false, is_seldom, false};
+    };
+    auto whole = [](std::string_view name, double least, double most, double otherwise) {
+        return SettingKind{name, least, most, otherwise, true, true, false};
+    };
+    auto on_off = [](std::string_view name, bool otherwise) {
+        return SettingKind{name, 0, 1, double(otherwise), true, true, true};
+    };
+    using Options = FrameOptions;
+    return {
+        {number("error-px", 0.01, 1000, is.decide.error_px, false), [](Options& o, double v) { o.decide.error_px = v; }},
+        {number("low-error-px", 0.01, 1000, is.decide.low_error_px, false),
+         [](Options& o, double v) { o.decide.low_error_px = v; }},
+        {number("key-error-px", 0.01, 1000, is.decide.key_error_px, false),
+         [](Options& o, double v) { o.decide.key_error_px = v; }},
+        {whole("key-scale", 1, 4, is.decide.scale), [](Options& o, double v) { o.decide.scale = uint32_t(v); }},
+        {number("guard", 1, 3, is.decide.guard, true), [](Options& o, double v) { o.decide.guard = v; }},
+        {whole("slots", 2, 16, is.decide.slots), [](Options& o, double v) { o.decide.slots = uint32_t(v); }},
+        {whole("fade-frames", 0, 60, is.decide.fade_frames), [](Options& o, double v) { o.decide.fade_frames = uint32_t(v); }},
+        {on_off("sliced", is.decide.mode == KeyMode::sliced),
+         [](Options& o, double v) { o.decide.mode = v != 0 ? KeyMode::sliced : KeyMode::at_once; }},
+        {on_off("near", is.decide.draws_near), [](Options& o, double v) { o.decide.draws_near = v != 0; }},
+        {number("morph", 0, 1, is.decide.morph, true), [](Options& o, double v) { o.decide.morph = v; }},
+        {number("tolerance-px", 0.05, 10, is.draw.tolerance_px, true), [](Options& o, double v) { o.draw.tolerance_px = v; }},
+        {whole("look-ups", 1, 16, is.draw.look_ups), [](Options& o, double v) { o.draw.look_ups = uint32_t(v); }},
+        {on_off("outlines", is.draw.raises), [](Options& o, double v) { o.draw.raises = v != 0; }},
+        {on_off("slab-test", is.draw.tests_slab), [](Options& o, double v) { o.draw.tests_slab = v != 0; }},
+        {on_off("place-test", is.draw.tests_places), [](Options& o, double v) { o.draw.tests_places = v != 0; }},
+        {on_off("sources", is.draw.shows_sources), [](Options& o, double v) { o.draw.shows_sources = v != 0; }},
+    };
+}
+
+const std::vector<KnownSetting>& known_settings() {
+    static const std::vector<KnownSetting> kKnown = make_settings();
+    return kKnown;
+}
+
+}  // namespace
+
+std::span<const SettingKind> setting_kinds() {
+    static const std::vector<SettingKind> kKinds = [] {
+        std::vector<SettingKind> kinds;
+        for (const KnownSetting& known : known_settings()) kinds.push_back(known.kind);
+        return kinds;
+    }();
+    return kKinds;
+}
+
+void set(FrameOptions& options, std::string_view name, double value) {
+    const std::vector<KnownSetting>& known = known_settings();
+    auto found = std::find_if(known.begin(), known.end(), [&](const KnownSetting& one) { return one.kind.name == name; });
+    assert(found != known.end() && value >= found->kind.least && value <= found->kind.most);
+    found->set(options, value);
+}
+
+std::string_view name_of(Cause cause) {
+    constexpr std::array<std::string_view, 6> kNames = {"none", "first", "jump", "error", "magnified", "turned"};
+    static_assert(size_t(Cause::turned) + 1 == kNames.size());
+    return kNames[size_t(cause)];
+}
+
+Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const terrain::Refiner& refiner, terrain::Drawing& ground,
+                                                       const FrameOptions& options) {
+    std::unique_ptr<FrameDrawer> made(new FrameDrawer(refiner, ground, options));
+    Result<Painter> painter = Painter::make(made->surface_, options.decide.slots);
+    if (!painter) return tl::unexpected(painter.error());
+    made->painter_ = std::move(*painter);
+    return made;
+}
+
+FrameDrawer::FrameDrawer(const terrain::Refiner& refiner, terrain::Drawing& ground, const FrameOptions& options)
+    : refiner_(refiner), surface_(ground, options.look), near_surface_(ground, options.look) {
+    settle(options);
+}
+
+void FrameDrawer::settle(const FrameOptions& options) {
+    settings_ = options.decide;
+    novel_ = options.draw;
+    novel_.low_error_px = settings_.low_error_px;
+    novel_.near_error_px = settings_.error_px;
+    novel_.most_slack_m = refiner_.highest_m() - refiner_.lowest_m();
+    forget();
+}
+
+void FrameDrawer::change(const FrameOptions& options) {
+    assert(options.decide.slots == settings_.slots);
+    settle(options);
+}
+
+// A director keeps what it learned of earlier keys, which a fresh one does not know.
+void FrameDrawer::forget() {
+    director_.emplace(refiner_, settings_);
+    is_whole_.assign(settings_.slots, false);
+    work_.reset();
+    plan_ = nullptr;
+}
+
+void FrameDrawer::decide(const view::Camera& camera) {
+    bool is_resized = camera.width_px != camera_.width_px || camera.height_px != camera_.height_px;
+    if (is_resized) forget();
+    camera_ = camera;
+    work_ = director_->key_work(camera);
+    is_drawn_ = false;
+}
+
+Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
+    if (!is_drawn_) {
+        counts_ = {};
+        if (work_) {
+            if (Result<void> drawn = draw_key(); !drawn) return tl::unexpected(drawn.error());
+        }
+        plan();
+        is_drawn_ = true;
+    }
+    surface_.take(*plan_->cut);
+    surface_.take_range({plan_->near_triangle_count});
+    near_surface_.take_range({0, plan_->near_triangle_count});
+    gl::Surface* near = plan_->near_triangle_count > 0 ? &near_surface_ : nullptr;
+    Result<void> drawn = painter_->draw(target, near, surface_, camera_, novel_);
+    if (!drawn) return tl::unexpected(drawn.error());
+    FrameCounts counts = counts_;
+    counts.uploaded_bytes += surface_.uploaded_bytes();
+    return counts;
+}
+
+uint32_t FrameDrawer::grid_step() const {
+    return std::max(1u, key_camera(camera_, settings_.guard).width_px * settings_.scale / kGridColumns);
+}
+
+// What of a key belongs to this frame.
+Result<void> FrameDrawer::draw_key() {
+    if (work_->begin != nullptr) {
+        Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
+        if (!begun) return begun;
+        is_whole_[work_->slot] = false;
+        counts_.key_pixel_count = uint64_t(work_->begin->width_px) * work_->begin->height_px * settings_.scale * settings_.scale;
+    }
+    surface_.take(*work_->slice);
+    surface_.take_range({});
+    painter_->draw_into_key(work_->slot, surface_);
+    counts_.key_triangle_count = work_->slice->triangle_count();
+    counts_.triangle_count = counts_.key_triangle_count;
+    counts_.vertex_reference_count = work_->slice->indices.size();
+    counts_.tested_count = work_->slice->tested_count;
+    counts_.draw_call_count = 1;
+    counts_.uploaded_bytes = surface_.uploaded_bytes();
+    if (work_->is_last) {
+        director_->key_done(painter_->read_depth(work_->slot, grid_step()));
+        is_whole_[work_->slot] = true;
+    }
+    return {};
+}
+
+// The frame itself.
+void FrameDrawer::plan() {
+    plan_ = &director_->novel();
+    novel_.keys.clear();
+    for (const NovelUse& use : plan_->keys) novel_.keys.push_back({use.slot, use.weight});
+    novel_.near_depth_m = plan_->near_depth_m;
+    counts_.triangle_count += plan_->cut->triangle_count();
+    counts_.near_triangle_count = plan_->near_triangle_count;
+    counts_.vertex_reference_count += plan_->cut->indices.size();
+    counts_.tested_count += plan_->cut->tested_count;
+    counts_.draw_call_count += 2;
+    counts_.resident_bytes = painter_->resident_bytes();
+    counts_.live_key_count = uint32_t(std::count(is_whole_.begin(), is_whole_.end(), true));
+    counts_.used_key_count = uint32_t(plan_->keys.size());
+    counts_.error_p99_px = plan_->error_p99_px;
+    counts_.error_max_px = plan_->error_max_px;
+    counts_.lost_share = plan_->lost_share;
+    counts_.rekeyed = plan_->rekeyed;
+}
+
+}  // namespace overlook::lod_sprite

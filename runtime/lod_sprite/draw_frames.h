@@ -1,0 +1,94 @@
+// LOD-sprite over a terrain, frame by frame: what decides (director.h), what draws (draw.h) and the surface, put together in the
+// one way in which everybody uses them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "formats/setting.h"
+#include "runtime/lod_sprite/director.h"
+#include "runtime/lod_sprite/draw.h"
+#include "runtime/terrain/draw.h"
+
+namespace overlook::lod_sprite {
+
+struct FrameOptions {
+    Settings decide;
+    NovelOptions draw;  // low and near error, near depth and slack are settled by the frames
+    terrain::DrawOptions look;
+};
+
+// All that people may set of it, with the defaults of the structs above.
+std::span<const SettingKind> setting_kinds();
+// name: of one of them; value: within its range.
+void set(FrameOptions& options, std::string_view name, double value);
+
+// What one frame was: exact, and the same on every run, for the same frames before it.
+struct FrameCounts {
+    uint64_t triangle_count = 0;  // submitted, those drawn into keys included
+    uint64_t key_triangle_count = 0;
+    uint64_t key_pixel_count = 0;  // of the keys begun
+    uint64_t near_triangle_count = 0;
+    uint64_t vertex_reference_count = 0;
+    uint64_t draw_call_count = 0;
+    uint64_t tested_count = 0;
+    uint64_t uploaded_bytes = 0;
+    uint64_t resident_bytes = 0;                // of the keys, on the card
+    uint32_t live_key_count = 0;                // whole, whether this frame looks into them or not
+    uint32_t used_key_count = 0;                // that it looks into
+    double error_p99_px = 0, error_max_px = 0;  // predicted, over the pixels
+    double lost_share = 0;                      // predicted: 1 where there is no key
+    Cause rekeyed = Cause::none;                // why the key that took over with this frame was made
+};
+
+// "jump", "turned", ...: as reports have it.
+std::string_view name_of(Cause cause);
+
+// Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which must give the same
+// picture. A context must be current, also when it goes.
+class FrameDrawer {
+  public:
+    // Both must outlive it. Fails as Painter::make.
+    static Result<std::unique_ptr<FrameDrawer>> make(const terrain::Refiner& refiner, terrain::Drawing& ground,
+                                                     const FrameOptions& options);
+    FrameDrawer(const FrameDrawer&) = delete;
+    FrameDrawer& operator=(const FrameDrawer&) = delete;
+
+    // camera: in the terrain's own frame, of the size of the target. Another size than the frame's before forgets all keys.
+    void decide(const view::Camera& camera);
+    // Draws and resolves; need not wait until it is drawn. Fails as Painter::begin_key and Painter::draw.
+    Result<FrameCounts> draw(const gl::Target& target);
+
+    // From the next frame on it is as if newly made: no key, no way flown. What was drawn stays on the card until drawn over.
+    void forget();
+    // Goes on with other settings, but for `slots`, and forgets.
+    void change(const FrameOptions& options);
+    // Changes the colours alone: grey where the first key is seen, yellow another, blue near geometry, red what no key shows.
+    void show_sources(bool shows) { novel_.shows_sources = shows; }
+
+  private:
+    FrameDrawer(const terrain::Refiner& refiner, terrain::Drawing& ground, const FrameOptions& options);
+    void settle(const FrameOptions& options);
+    Result<void> draw_key();
+    void plan();
+    uint32_t grid_step() const;
+
+    const terrain::Refiner& refiner_;
+    terrain::CutSurface surface_, near_surface_;
+    Settings settings_;
+    NovelOptions novel_;
+    std::optional<Director> director_;
+    std::optional<Painter> painter_;
+    std::vector<bool> is_whole_;  // of the slots
+    view::Camera camera_;
+    std::optional<KeyWork> work_;
+    const Novel* plan_ = nullptr;
+    bool is_drawn_ = false;
+    FrameCounts counts_;
+};
+
+}  // namespace overlook::lod_sprite

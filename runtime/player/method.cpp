@@ -1,0 +1,149 @@
+#include "runtime/player/method.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace overlook::player {
+namespace {
+
+constexpr std::array<std::string_view, 3> kNames = {"terrain", "lod-sprite", "lod-sprite:paper"};
+constexpr std::array<SettingKind, 1> kTerrainSettings = {SettingKind{"error-px", 0.001, 10000, 1}};
+
+std::span<const SettingKind> settings_of(Method method) {
+    switch (method) {
+        case Method::lod_sprite:
+            return lod_sprite::setting_kinds();
+        case Method::lod_sprite_paper:
+            return lod_sprite::paper::setting_kinds();
+        default:
+            return kTerrainSettings;
+    }
+}
+
+std::string scene_name(std::string_view setting) {
+    std::string name(setting);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+std::string wanted(const SettingKind& kind) {
+    if (kind.is_switch) return "true or false is wanted";
+    return fmt::format("a {}number from {} to {} is wanted", kind.is_whole ? "whole " : "", kind.least, kind.most);
+}
+
+// The setting's value, switches as 0 or 1.
+std::optional<double> value_of(const scene::Setting& setting, const SettingKind& kind) {
+    if (kind.is_switch) {
+        const bool* is_on = std::get_if<bool>(&setting);
+        return is_on != nullptr ? std::optional(double(*is_on)) : std::nullopt;
+    }
+    const double* number = std::get_if<double>(&setting);
+    if (number == nullptr || !(*number >= kind.least && *number <= kind.most)) return std::nullopt;
+    if (kind.is_whole && *number != std::floor(*number)) return std::nullopt;
+    return *number;
+}
+
+// The method and its name, of one that can be drawn here.
+Result<Method> method_of(const std::string& path, const scene::Layer& layer) {
+    std::string whole = layer.variant.empty() ? layer.method : layer.method + ":" + layer.variant;
+    auto found = std::find(kNames.begin(), kNames.end(), whole);
+    if (found != kNames.end()) return Method(found - kNames.begin());
+    if (std::find(kNames.begin(), kNames.end(), layer.method) == kNames.end()) {
+        return impossible("{}: /layers/0/method: the player cannot draw {} yet; it draws terrain and lod-sprite", path,
+                          layer.method);
+    }
+    return bad_input("{}: /layers/0/method: {} has no variant {}", path, layer.method, layer.variant);
+}
+
+// A setting by its name in scenes.
+Result<SettingKind> kind_of(const std::string& path, Method method, const std::string& name) {
+    std::span<const SettingKind> kinds = settings_of(method);
+    auto found = std::find_if(kinds.begin(), kinds.end(), [&](const SettingKind& kind) { return scene_name(kind.name) == name; });
+    if (found != kinds.end()) return *found;
+    std::vector<std::string> names;
+    for (const SettingKind& kind : kinds) names.push_back(scene_name(kind.name));
+    std::vector<std::string_view> known(names.begin(), names.end());
+    std::string_view near = json::nearest(std::string_view(name).substr(0, 64), known);
+    return bad_input("{}: /layers/0/settings/{}: {} has no such setting; did you mean {}?", path, name.substr(0, 64),
+                     name_of(method), near);
+}
+
+// A scene's own promises must not be finer than what they are built on.
+Result<void> check_promises(const std::string& path, const LayerMethod& layer) {
+    auto check = [&](std::string_view name, double value, double error_px) -> Result<void> {
+        if (value >= error_px) return {};
+        return bad_input("{}: /layers/0/settings/{}: {} is less than the error_px of {}", path, name, value, error_px);
+    };
+    if (layer.method == Method::lod_sprite_paper) return check("low_error_px", layer.paper.low_error_px, layer.paper.error_px);
+    if (layer.method != Method::lod_sprite) return {};
+    const lod_sprite::Settings& settings = layer.sprite.decide;
+    Result<void> low = check("low_error_px", settings.low_error_px, settings.error_px);
+    return low ? check("key_error_px", settings.key_error_px, settings.error_px) : low;
+}
+
+}  // namespace
+
+std::string_view name_of(Method method) {
+    return kNames[size_t(method)];
+}
+
+Method next(Method method) {
+    return Method((size_t(method) + 1) % kNames.size());
+}
+
+Result<Method> parse_method(std::string_view text) {
+    auto found = std::find(kNames.begin(), kNames.end(), text);
+    if (found != kNames.end()) return Method(found - kNames.begin());
+    return bad_command("--method {}: there is no such method; did you mean {}? (known: {})", text,
+                       json::nearest(text.substr(0, 64), kNames), fmt::join(kNames, ", "));
+}
+
+Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described) {
+    const scene::Layer& layer = described.layers.front();
+    LayerMethod read;
+    Result<Method> method = method_of(path, layer);
+    if (!method) return tl::unexpected(method.error());
+    read.method = *method;
+
+    std::vector<std::pair<SettingKind, double>> values;
+    for (const auto& [name, setting] : layer.settings) {
+        Result<SettingKind> kind = kind_of(path, read.method, name);
+        if (!kind) return tl::unexpected(kind.error());
+        std::optional<double> value = value_of(setting, *kind);
+        if (!value) return bad_input("{}: /layers/0/settings/{}: {}", path, name, wanted(*kind));
+        if (kind->name == "error-px") described.error_px = *value;
+        values.emplace_back(*kind, *value);
+    }
+    // What the scene does not say keeps the ratio to its error that it has by default.
+    read.sprite = with_error(read.sprite, described.error_px);
+    read.paper = with_error(read.paper, described.error_px);
+    for (const auto& [kind, value] : values) {
+        if (read.method == Method::lod_sprite) lod_sprite::set(read.sprite, kind.name, value);
+        if (read.method == Method::lod_sprite_paper) lod_sprite::paper::set(read.paper, kind.name, value);
+    }
+    if (Result<void> checked = check_promises(path, read); !checked) return tl::unexpected(checked.error());
+    return read;
+}
+
+lod_sprite::FrameOptions with_error(lod_sprite::FrameOptions options, double error_px) {
+    double ratio = error_px / options.decide.error_px;
+    options.decide.error_px = error_px;
+    options.decide.low_error_px *= ratio;
+    options.decide.key_error_px *= ratio;
+    return options;
+}
+
+lod_sprite::paper::FrameOptions with_error(lod_sprite::paper::FrameOptions options, double error_px) {
+    double ratio = error_px / options.error_px;
+    options.error_px = error_px;
+    options.low_error_px *= ratio;
+    options.decide.key_error_px *= ratio;
+    return options;
+}
+
+}  // namespace overlook::player

@@ -1,0 +1,45 @@
+// The methods that the player draws with, and what of a command line and a scene goes to which.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "formats/scene.h"
+#include "runtime/lod_sprite/draw_frames.h"
+#include "runtime/lod_sprite/draw_paper_frames.h"
+
+namespace overlook::player {
+
+enum class Method { terrain, lod_sprite, lod_sprite_paper };
+
+// As typed: "terrain", "lod-sprite", "lod-sprite:paper".
+std::string_view name_of(Method method);
+// The one that M goes on to; the last is followed by the first.
+Method next(Method method);
+
+// Fails with Exit::bad_command:
+//   "--method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, lod-sprite:paper)"
+Result<Method> parse_method(std::string_view text);
+
+// Method and settings of a scene's one layer; its error_px, if it has one, becomes the scene's. Fails with Exit::bad_input
+//   "a.json: /layers/0/method: terrain has no variant paper"
+//   "a.json: /layers/0/settings/eror_px: terrain has no such setting; did you mean error_px?"
+//   "a.json: /layers/0/settings/error_px: a number from 0.001 to 10000 is wanted"
+//   "a.json: /layers/0/settings/key_scale: a whole number from 1 to 4 is wanted"
+//   "a.json: /layers/0/settings/sliced: true or false is wanted"
+//   "a.json: /layers/0/settings/low_error_px: 0.5 is less than the error_px of 1"
+// with Exit::impossible
+//   "a.json: /layers/0/method: the player cannot draw caveclod yet; it draws terrain and lod-sprite"
+struct LayerMethod {
+    Method method = Method::terrain;
+    // Both with the scene's error_px; what it does not say of their other promises keeps its default ratio to it.
+    lod_sprite::FrameOptions sprite;
+    lod_sprite::paper::FrameOptions paper;
+};
+Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described);
+
+// The same with error_px; what is promised elsewhere keeps its ratio to it.
+lod_sprite::FrameOptions with_error(lod_sprite::FrameOptions options, double error_px);
+lod_sprite::paper::FrameOptions with_error(lod_sprite::paper::FrameOptions options, double error_px);
+
+}  // namespace overlook::player

@@ -1,0 +1,234 @@
+// LOD-sprite frame by frame, as the player and measure draw it.
+#include "runtime/lod_sprite/draw_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/lod_sprite/draw_paper_frames.h"
+#include "tests/gl/fixture.h"
+
+namespace overlook {
+namespace {
+
+using lod_sprite::Cause;
+using lod_sprite::FrameCounts;
+using lod_sprite::FrameDrawer;
+using lod_sprite::FrameOptions;
+
+// A hilly terrain on the card, and a way over it.
+struct Stage {
+    terrain::Terrain terrain = test::hilly_terrain(257);
+    terrain::Refiner refiner{terrain};
+    std::optional<terrain::Drawing> ground;
+
+    Stage() {
+        Result<terrain::Drawing> made = terrain::Drawing::make(terrain);
+        EXPECT_TRUE(made) << made.error().message;
+        ground = std::move(*made);
+    }
+    std::unique_ptr<FrameDrawer> frames(const FrameOptions& options = {}) {
+        auto made = FrameDrawer::make(refiner, *ground, options);
+        EXPECT_TRUE(made) << made.error().message;
+        return std::move(*made);
+    }
+    view::Camera camera(uint32_t frame, uint32_t width_px = 96, uint32_t height_px = 64) const {
+        view::Camera camera = test::from_south(terrain, width_px, height_px);
+        camera.position_m.y += 4.0 * frame;
+        camera.heading_deg += 0.1 * frame;
+        return camera;
+    }
+};
+
+// Keys of more triangles than one slice has.
+FrameOptions fine_options() {
+    FrameOptions options;
+    lod_sprite::set(options, "error-px", 0.01);
+    return options;
+}
+
+gl::Target target_of(uint32_t width_px = 96, uint32_t height_px = 64) {
+    return std::move(*gl::Target::make(width_px, height_px, 1));
+}
+
+template <class Frames>
+FrameCounts draw(Frames& frames, const view::Camera& camera, const gl::Target& target) {
+    frames.decide(camera);
+    Result<FrameCounts> drawn = frames.draw(target);
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return drawn.value_or(FrameCounts{});
+}
+
+// Of the picture, the share of pixels that fit.
+template <class Fits>
+double share_of(const ImageRgb8& image, Fits fits) {
+    uint32_t count = 0;
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x) count += fits(test::pixel(image, x, y));
+    return double(count) / (image.width * image.height);
+}
+bool is_grey(const test::Rgb& c) {
+    return std::abs(c.red - c.green) <= 2 && std::abs(c.green - c.blue) <= 2;
+}
+bool is_red(const test::Rgb& c) {
+    return c.red > c.green + 25 && c.red > c.blue + 25;
+}
+
+TEST(LodSpriteFrames, BeginWithoutAKeyAndSayWhenOneTakesOver) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto frames = stage.frames(fine_options());
+    gl::Target target = target_of();
+    uint64_t key_triangles = 0;
+    uint32_t first_keyed = 0;
+    for (uint32_t frame = 0; frame < 60; ++frame) {
+        FrameCounts counts = draw(*frames, stage.camera(frame), target);
+        EXPECT_GT(counts.triangle_count, counts.key_triangle_count);
+        EXPECT_LE(counts.used_key_count, counts.live_key_count);
+        key_triangles += counts.key_triangle_count;
+        if (counts.live_key_count == 0) {
+            EXPECT_EQ(counts.rekeyed, Cause::none);
+            EXPECT_EQ(counts.lost_share, 1);
+        } else if (first_keyed == 0) {
+            first_keyed = frame;
+            EXPECT_EQ(counts.rekeyed, Cause::first);
+        } else {
+            EXPECT_NE(counts.rekeyed, Cause::first);
+        }
+    }
+    EXPECT_GT(first_keyed, 0u);
+    EXPECT_GT(key_triangles, 0u);
+}
+
+TEST(LodSpriteFrames, DrawTheSamePictureAgain) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto frames = stage.frames();
+    gl::Target target = target_of(), other = target_of();
+    for (uint32_t frame = 0; frame < 30; ++frame) {
+        FrameCounts counts = draw(*frames, stage.camera(frame), target);
+        Result<FrameCounts> again = frames->draw(other);
+        ASSERT_TRUE(again);
+        EXPECT_EQ(target.read().pixels, other.read().pixels) << frame;
+        EXPECT_EQ(counts.triangle_count, again->triangle_count);
+        EXPECT_EQ(counts.rekeyed, again->rekeyed);
+    }
+}
+
+// Draws these frames of another size twice: by one that has flown before in the first size, and by a fresh one.
+template <class Frames>
+void expect_fresh_after_resize(const Stage& stage, Frames& flown, Frames& fresh) {
+    gl::Target small = target_of(), large = target_of(160, 100);
+    uint32_t keys_before = 0;
+    for (uint32_t frame = 0; frame < 50; ++frame) keys_before = draw(flown, stage.camera(frame), small).live_key_count;
+    ASSERT_GT(keys_before, 0u);
+    uint32_t keys_after = 0;
+    for (uint32_t frame = 50; frame < 100; ++frame) {
+        FrameCounts counts = draw(flown, stage.camera(frame, 160, 100), large);
+        std::vector<uint8_t> resized = large.read().pixels;
+        FrameCounts expected = draw(fresh, stage.camera(frame, 160, 100), large);
+        EXPECT_EQ(resized, large.read().pixels) << "frame " << frame;
+        EXPECT_EQ(counts.key_triangle_count, expected.key_triangle_count);
+        EXPECT_EQ(counts.rekeyed, expected.rekeyed);
+        keys_after = counts.live_key_count;
+    }
+    EXPECT_GT(keys_after, 0u);
+}
+
+TEST(LodSpriteFrames, OfAnotherSizeAreThoseOfAFreshStart) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    for (lod_sprite::KeyMode mode : {lod_sprite::KeyMode::sliced, lod_sprite::KeyMode::at_once}) {
+        FrameOptions options = fine_options();
+        options.decide.mode = mode;
+        expect_fresh_after_resize(stage, *stage.frames(options), *stage.frames(options));
+    }
+}
+
+TEST(LodSpritePaperFrames, OfAnotherSizeAreThoseOfAFreshStart) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    lod_sprite::paper::FrameDrawer flown(stage.terrain, stage.refiner, *stage.ground, {});
+    lod_sprite::paper::FrameDrawer fresh(stage.terrain, stage.refiner, *stage.ground, {});
+    expect_fresh_after_resize(stage, flown, fresh);
+}
+
+TEST(LodSpriteFrames, TellSourcesByColour) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    FrameOptions options = fine_options();
+    lod_sprite::set(options, "fade-frames", 0);
+    options.look.haze = 0;
+    auto frames = stage.frames(options);
+    gl::Target target = target_of();
+    frames->show_sources(true);
+    draw(*frames, stage.camera(0), target);
+    EXPECT_GT(share_of(target.read(), is_red), 0.2);
+    double sky_share = share_of(target.read(), is_grey);
+
+    FrameCounts counts;
+    for (uint32_t frame = 0; frame < 40; ++frame) counts = draw(*frames, stage.camera(0), target);
+    ASSERT_GT(counts.used_key_count, 0u);
+    EXPECT_GT(share_of(target.read(), is_grey), sky_share + 0.2);
+    EXPECT_LT(share_of(target.read(), is_red), 0.02);
+
+    frames->show_sources(false);
+    EXPECT_EQ(draw(*frames, stage.camera(0), target).live_key_count, counts.live_key_count);
+    EXPECT_LT(share_of(target.read(), is_grey), sky_share + 0.1);
+}
+
+TEST(LodSpriteFrames, WithOtherSettingsAreThoseOfAFreshStart) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    FrameOptions coarse;
+    lod_sprite::set(coarse, "low-error-px", 32);
+    lod_sprite::set(coarse, "error-px", 2);
+    lod_sprite::set(coarse, "key-error-px", 2);
+    auto flown = stage.frames(), fresh = stage.frames(coarse);
+    gl::Target target = target_of();
+    for (uint32_t frame = 0; frame < 40; ++frame) draw(*flown, stage.camera(frame), target);
+    flown->change(coarse);
+    for (uint32_t frame = 40; frame < 70; ++frame) {
+        draw(*flown, stage.camera(frame), target);
+        std::vector<uint8_t> changed = target.read().pixels;
+        draw(*fresh, stage.camera(frame), target);
+        EXPECT_EQ(changed, target.read().pixels) << "frame " << frame;
+    }
+}
+
+TEST(LodSpriteFrames, RefuseKeysThatTheRendererCannotHold) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    FrameOptions options;
+    lod_sprite::set(options, "key-scale", 4);
+    lod_sprite::set(options, "guard", 3);
+    auto frames = stage.frames(options);
+    gl::Target target = target_of(8192, 16);
+    frames->decide(stage.camera(0, 8192, 16));
+    Result<FrameCounts> drawn = frames->draw(target);
+    ASSERT_FALSE(drawn);
+    EXPECT_EQ(drawn.error().exit, Exit::impossible);
+}
+
+TEST(LodSpriteSettings, AreTheStructsOwnDefaultsByName) {
+    FrameOptions options, untouched;
+    for (const SettingKind& kind : lod_sprite::setting_kinds()) {
+        EXPECT_LE(kind.least, kind.otherwise) << kind.name;
+        EXPECT_GE(kind.most, kind.otherwise) << kind.name;
+        lod_sprite::set(options, kind.name, kind.otherwise);
+    }
+    EXPECT_EQ(options.decide.low_error_px, untouched.decide.low_error_px);
+    EXPECT_EQ(options.decide.slots, untouched.decide.slots);
+    EXPECT_EQ(options.decide.mode, untouched.decide.mode);
+    EXPECT_EQ(options.draw.tolerance_px, untouched.draw.tolerance_px);
+    lod_sprite::set(options, "slots", 7);
+    lod_sprite::set(options, "sliced", 0);
+    lod_sprite::set(options, "slab-test", 0);
+    EXPECT_EQ(options.decide.slots, 7u);
+    EXPECT_EQ(options.decide.mode, lod_sprite::KeyMode::at_once);
+    EXPECT_FALSE(options.draw.tests_slab);
+}
+
+}  // namespace
+}  // namespace overlook
