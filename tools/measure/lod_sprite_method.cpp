@@ -5,6 +5,7 @@
 
 #include "runtime/lod_sprite/director.h"
 #include "runtime/lod_sprite/draw.h"
+#include "tools/measure/capture.h"
 
 namespace overlook::measure {
 namespace {
@@ -49,6 +50,7 @@ class LodSprite : public Method {
     }
 
     void decide(const view::Camera& camera, uint32_t) override {
+        if (camera.width_px != camera_.width_px || camera.height_px != camera_.height_px) director_.forget();
         camera_ = camera;
         work_ = director_.key_work(camera);
         is_drawn_ = false;
@@ -57,18 +59,31 @@ class LodSprite : public Method {
     Counters draw(const gl::Target& target) override {
         if (!is_drawn_) draw_key();
         is_drawn_ = true;
-        surface_.take(*plan_->cut);
-        surface_.take_range({plan_->near_triangle_count});
-        near_surface_.take_range({0, plan_->near_triangle_count});
-        gl::Surface* near = plan_->near_triangle_count > 0 ? &near_surface_ : nullptr;
-        [[maybe_unused]] Result<void> drawn = painter_->draw(target, near, surface_, camera_, novel_);
-        assert(drawn);
+        paint(target, novel_);
         Counters counters = counters_;
         counters.uploaded_bytes += surface_.uploaded_bytes();
         return counters;
     }
 
+    std::optional<Sources> sources(const gl::Target& middle) override {
+        if (novel_.keys.empty()) return std::nullopt;
+        lod_sprite::NovelOptions mask = novel_;
+        mask.is_mask = true;
+        paint(middle, mask);
+        Sources sources{mask_of(middle), {}};
+        for (const lod_sprite::KeyUse& use : novel_.keys) sources.keys.push_back(painter_->texel_camera(use.slot));
+        return sources;
+    }
+
   private:
+    void paint(const gl::Target& target, const lod_sprite::NovelOptions& options) {
+        surface_.take(*plan_->cut);
+        surface_.take_range({plan_->near_triangle_count});
+        near_surface_.take_range({0, plan_->near_triangle_count});
+        gl::Surface* near = plan_->near_triangle_count > 0 ? &near_surface_ : nullptr;
+        [[maybe_unused]] Result<void> drawn = painter_->draw(target, near, surface_, camera_, options);
+        assert(drawn);
+    }
     uint32_t grid_step() const {
         return std::max(1u, lod_sprite::key_camera(camera_, settings_.guard).width_px * settings_.scale / kGridColumns);
     }

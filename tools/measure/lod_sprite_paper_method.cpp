@@ -7,6 +7,7 @@
 
 #include "runtime/lod_sprite/draw_paper.h"
 #include "runtime/lod_sprite/paper_sprite.h"
+#include "tools/measure/capture.h"
 
 namespace overlook::measure {
 namespace {
@@ -58,6 +59,13 @@ class LodSpritePaper : public Method {
         counters.uploaded_bytes = drawing_->uploaded_bytes();
         counters.resident_bytes = world_.resident_bytes + drawing_->resident_bytes() + counters.uploaded_bytes;
         return counters;
+    }
+
+    // Of no keyframe, which is drawn in full.
+    std::optional<Sources> sources(const gl::Target& middle) override {
+        if (decision_.is_key()) return std::nullopt;
+        drawing_->draw_mask(middle, low_, flags_, sprite_.key_camera(), camera_, world_.look);
+        return Sources{mask_of(middle), {sprite_.key_camera()}};
     }
 
   private:
