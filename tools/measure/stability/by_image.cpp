@@ -193,20 +193,24 @@ Result<Finding> turn_back(Stage& stage, const MethodSpec& spec, const scene::Fli
     Turn turn = turn_of(event, fade, uint32_t(cameras.size()));
     Result<Watched> watched = Watched::make(stage, spec);
     if (!watched) return tl::unexpected(watched.error());
-    uint32_t last_change = event, new_keys = 0;
+    uint32_t last_change = event, last_key = event, new_keys = 0, over = 0;
     ImageRgb8 before;
     for (uint32_t step = 0; step < turn.frames.size(); ++step) {
         Result<uint64_t> events = watched->next(cameras[turn.frames[step]], step, step + kBefore >= event);
         if (!events) return tl::unexpected(events.error());
         bool stands = step > turn.stop && step <= turn.leaves;
-        if (stands && watched->picture.pixels != before.pixels) last_change = step;
-        if (step > event) new_keys += uint32_t(*events);
+        // A key that takes over later has a transition of its own.
+        if (step > event && *events > 0) last_key = step, ++new_keys;
+        if (stands && watched->picture.pixels != before.pixels) {
+            last_change = step;
+            over = std::max(over, step - std::min(step, last_key + fade));
+        }
         before = watched->picture;
     }
     PopIndex pop = watched->pop();
     Finding finding;
     finding.figures["pop_index"] = pop.index;
-    finding.figures["transition_over_time_s"] = std::max(0.0, double(last_change) - double(event + fade)) * flight.step_s;
+    finding.figures["transition_over_time_s"] = over * flight.step_s;
     finding.frames = uint32_t(turn.frames.size());
     finding.worst = std::move(watched->worst);
     finding.sentence = fmt::format(
