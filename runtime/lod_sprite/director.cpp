@@ -18,7 +18,8 @@ constexpr double kFillWeight = 1.0 / 1024;
 constexpr double kUnkeyedFiner = 4;        // without a key the coarse cut keeps low_error_px over this
 constexpr uint64_t kLeastSlice = 512;      // triangles
 constexpr uint64_t kUnknownKey = 1 << 18;  // triangles, before there was one
-constexpr double kAimAhead = 1.75;         // of the slices: a key ahead of the camera opens less than one behind it
+constexpr double kAimAhead = 2.25;         // of the slices: a key ahead of the camera opens less than one behind it
+constexpr double kRoom = 1.5;              // a key promises so much better than frames from it, which come nearer than it
 
 }  // namespace
 
@@ -40,7 +41,11 @@ Reuse Director::reuse(uint32_t slot, const view::Camera& camera) const {
 
 // A key's own promise passes, whatever rounding made of it.
 double Director::most_error_px() const {
-    return settings_.key_error_px * settings_.error_px * (1 + 1e-6);
+    return settings_.key_error_px * (1 + 1e-6);
+}
+
+double Director::key_cut_px() const {
+    return std::min(settings_.error_px, settings_.key_error_px / kRoom);
 }
 
 bool Director::serves(const Reuse& reuse) const {
@@ -115,11 +120,11 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     into.cause = cause;
     into.key.camera = key_camera(pose, settings_.guard);
     into.key.scale = settings_.scale;
-    into.key.error_px = settings_.error_px;
+    into.key.error_px = key_cut_px();
     making_.emplace();
     making_->slot = slot;
     making_->cause = cause;
-    making_->cut.emplace(refiner_, into.key.camera, settings_.error_px);
+    making_->cut.emplace(refiner_, into.key.camera, into.key.error_px);
 }
 
 // What is left of the key over the frames left to make it in, which only get fewer: a key that is needed is hurried.

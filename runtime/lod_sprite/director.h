@@ -19,7 +19,7 @@ enum class KeyMode {
 struct Settings {
     double error_px = 1;          // the promise of the fine cut, which keys show
     double low_error_px = 16;     // of the coarse cut of novel frames
-    double key_error_px = 1;      // a new key is due where the p99 of the bounded error passes error_px times this
+    double key_error_px = 1;      // a new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it
     double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
     double guard = 1.15;
     uint32_t scale = 2;  // texels of a key a pixel, in both directions
@@ -94,6 +94,7 @@ class Director {
     void judge_keys();
     Reuse reuse(uint32_t slot, const view::Camera& camera) const;
     double most_error_px() const;
+    double key_cut_px() const;
     bool serves(const Reuse& reuse) const;
     bool may_rest() const;
     uint32_t frames_left() const;

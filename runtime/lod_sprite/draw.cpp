@@ -101,12 +101,15 @@ DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
 
 Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const NovelOptions& options, Pass pass) {
     uint32_t keys = pass == Pass::near ? 0 : uint32_t(options.keys.size());
-    uint32_t name = uint32_t(pass) + 4 * keys + (keys > 0 ? 32 * options.look_ups : 0) + (options.shows_sources ? 1u << 31 : 0);
+    uint32_t name = uint32_t(pass) + 4 * keys + (keys > 0 ? 32 * options.look_ups : 0) + (options.shows_sources ? 1u << 31 : 0) +
+                    (options.is_mask ? 1u << 30 : 0);
     auto known = programs_.find(name);
     if (known == programs_.end()) {
         bool raises = pass == Pass::keys;
-        std::string fragment = fmt::format("#define KEYS {}\n#define LOOK_UPS {}\n{}{}", keys, options.look_ups,
-                                           options.shows_sources ? "#define SHOWS_SOURCES\n" : "", shaders::kSlack);
+        std::string fragment = fmt::format("#define KEYS {}\n#define LOOK_UPS {}\n", keys, options.look_ups);
+        if (options.shows_sources) fragment += "#define SHOWS_SOURCES\n";
+        if (options.is_mask) fragment += fmt::format("#define MASK_OWN {}\n#define MASK_NEAR {}\n", kMaskOwn, kMaskNear);
+        fragment += shaders::kSlack;
         if (keys > 0) fragment += shaders::kFind;
         fragment += raises ? shaders::kNovelMain : shaders::kOwnMain;
         Result<gl::Program> made = surface.program({fmt::format("novel view with {} keys", keys),
@@ -152,6 +155,8 @@ Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surf
     target.bind();
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
+    const GLfloat nothing[4] = {0, 0, 0, 1};
+    if (options.is_mask) glClearBufferfv(GL_COLOR, 0, nothing);
     for (Pass pass : {Pass::near, Pass::keys, Pass::rest}) {
         gl::Surface* surface = pass == Pass::near ? near : &far;
         bool raises = pass == Pass::keys && options.raises;
@@ -165,7 +170,7 @@ Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surf
         surface->draw(**program, camera);
         glDisable(GL_CULL_FACE);
     }
-    far.draw_background(camera);
+    if (!options.is_mask) far.draw_background(camera);
     target.resolve();
     return {};
 }

@@ -18,6 +18,10 @@ namespace overlook::lod_sprite {
 
 constexpr uint32_t kMostKeysAtOnce = 3;
 
+// A mask's pixel has bit k set where the k-th key shows it, or one of these; 0 is the background.
+constexpr uint8_t kMaskOwn = 64;    // no key shows it: the surface's own colours
+constexpr uint8_t kMaskNear = 128;  // near geometry, which keys are not asked for
+
 // A key that a frame looks into.
 struct KeyUse {
     uint32_t slot = 0;
@@ -37,6 +41,7 @@ struct NovelOptions {
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
     bool tests_places = true;    // a texel counts only where it is in its own place in this frame
     bool shows_sources = false;  // grey: the first key; yellow: another; blue: near; red: no key shows it
+    bool is_mask = false;  // the red channel is a mask, the others are 0, and there is no background; for one sample a pixel
 };
 
 // Draws into keys and novel frames. A context must be current whenever it is used, and when it goes.
@@ -59,6 +64,8 @@ class Painter {
     Result<void> draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
                       const NovelOptions& options);
 
+    // Of the key in a slot, its size that of the texels.
+    const view::Camera& texel_camera(uint32_t slot) const { return sprites_[slot].drawn_camera; }
     uint64_t resident_bytes() const;
 
   private:

@@ -131,15 +131,30 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
         plan();
         is_drawn_ = true;
     }
+    if (Result<void> drawn = paint(target, novel_); !drawn) return tl::unexpected(drawn.error());
+    FrameCounts counts = counts_;
+    counts.uploaded_bytes += surface_.uploaded_bytes();
+    return counts;
+}
+
+Result<void> FrameDrawer::paint(const gl::Target& target, const NovelOptions& options) {
     surface_.take(*plan_->cut);
     surface_.take_range({plan_->near_triangle_count});
     near_surface_.take_range({0, plan_->near_triangle_count});
     gl::Surface* near = plan_->near_triangle_count > 0 ? &near_surface_ : nullptr;
-    Result<void> drawn = painter_->draw(target, near, surface_, camera_, novel_);
-    if (!drawn) return tl::unexpected(drawn.error());
-    FrameCounts counts = counts_;
-    counts.uploaded_bytes += surface_.uploaded_bytes();
-    return counts;
+    return painter_->draw(target, near, surface_, camera_, options);
+}
+
+std::vector<view::Camera> FrameDrawer::texel_cameras() const {
+    std::vector<view::Camera> cameras;
+    for (const KeyUse& use : novel_.keys) cameras.push_back(painter_->texel_camera(use.slot));
+    return cameras;
+}
+
+Result<void> FrameDrawer::draw_mask(const gl::Target& target) {
+    NovelOptions mask = novel_;
+    mask.is_mask = true;
+    return paint(target, mask);
 }
 
 uint32_t FrameDrawer::grid_step() const {

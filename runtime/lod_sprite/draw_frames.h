@@ -63,6 +63,11 @@ class FrameDrawer {
     // Draws and resolves; need not wait until it is drawn. Fails as Painter::begin_key and Painter::draw.
     Result<FrameCounts> draw(const gl::Target& target);
 
+    // The cameras of the keys that the frame drawn last looks into, as Painter::texel_camera says, in the order of the mask's
+    // sources; and which of them, near geometry or nothing, each pixel is from (Painter's is_mask).
+    std::vector<view::Camera> texel_cameras() const;
+    Result<void> draw_mask(const gl::Target& target);
+
     // From the next frame on it is as if newly made: no key, no way flown. What was drawn stays on the card until drawn over.
     void forget();
     // Goes on with other settings, but for `slots`, and forgets.
@@ -75,6 +80,7 @@ class FrameDrawer {
     void settle(const FrameOptions& options);
     Result<void> draw_key();
     void plan();
+    Result<void> paint(const gl::Target& target, const NovelOptions& options);
     uint32_t grid_step() const;
 
     const terrain::Refiner& refiner_;

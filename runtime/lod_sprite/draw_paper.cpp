@@ -4,6 +4,8 @@
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "runtime/lod_sprite/draw.h"
+
 namespace overlook::lod_sprite::paper {
 namespace {
 
@@ -27,9 +29,14 @@ vec3 placed(vec3 relative_m) {
 constexpr char kFragment[] = R"(
 uniform sampler2D sprite;           // as it was drawn: air, sRGB encoding and all
 uniform usamplerBuffer is_visible;  // of each triangle
+uniform bool is_mask;
+uniform float mask_own;
 in vec3 sprite_place;
 void main() {
-    if (texelFetch(is_visible, gl_PrimitiveID).r != 0u)
+    bool wears_sprite = texelFetch(is_visible, gl_PrimitiveID).r != 0u;
+    if (is_mask)
+        colour = vec4((wears_sprite ? 1.0 : mask_own) / 255.0, 0.0, 0.0, 1.0);
+    else if (wears_sprite)
         colour = vec4(texture(sprite, sprite_place.xy / sprite_place.z).rgb, 1.0);
     else
         colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
@@ -113,6 +120,17 @@ Result<void> Drawing::draw_key(const gl::Target& target, const terrain::Cut& hig
 void Drawing::draw_novel(const gl::Target& target, const terrain::Cut& low, std::span<const uint8_t> is_visible,
                          const view::Camera& key, const view::Camera& camera, const terrain::DrawOptions& options,
                          Coordinates coordinates) {
+    draw_low(target, low, is_visible, key, camera, options, coordinates, false);
+}
+
+void Drawing::draw_mask(const gl::Target& target, const terrain::Cut& low, std::span<const uint8_t> is_visible,
+                        const view::Camera& key, const view::Camera& camera, const terrain::DrawOptions& options) {
+    draw_low(target, low, is_visible, key, camera, options, Coordinates::homogeneous, true);
+}
+
+void Drawing::draw_low(const gl::Target& target, const terrain::Cut& low, std::span<const uint8_t> is_visible,
+                       const view::Camera& key, const view::Camera& camera, const terrain::DrawOptions& options,
+                       Coordinates coordinates, bool is_mask) {
     assert(is_visible.size() == low.triangle_count());
     if (!is_visible.empty()) flags_.fill(std::as_bytes(is_visible));
     ground_->take(low);
@@ -122,7 +140,11 @@ void Drawing::draw_novel(const gl::Target& target, const terrain::Cut& low, std:
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glDisable(GL_CULL_FACE);
-    ground_->draw_sky(camera, options);
+    const GLfloat nothing[4] = {0, 0, 0, 1};
+    if (is_mask)
+        glClearBufferfv(GL_COLOR, 0, nothing);
+    else
+        ground_->draw_sky(camera, options);
 
     glm::mat4 key_clip_from_relative = view::projection(key) * view::rotation(key);
     glm::vec3 eye_from_key_m(camera.position_m - key.position_m);
@@ -130,6 +152,8 @@ void Drawing::draw_novel(const gl::Target& target, const terrain::Cut& low, std:
     glUniformMatrix4fv(program_.at("key_clip_from_relative"), 1, GL_FALSE, glm::value_ptr(key_clip_from_relative));
     glUniform3fv(program_.at("eye_from_key_m"), 1, glm::value_ptr(eye_from_key_m));
     glUniform1i(program_.at("is_homogeneous"), coordinates == Coordinates::homogeneous);
+    glUniform1i(program_.at("is_mask"), is_mask);
+    glUniform1f(program_.at("mask_own"), float(kMaskOwn));
     glUniform1i(program_.at("sprite"), GLint(kSpriteUnit));
     glUniform1i(program_.at("is_visible"), GLint(kFlagsUnit));
     glBindTextureUnit(kSpriteUnit, sprite_.id());

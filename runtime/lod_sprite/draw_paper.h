@@ -45,6 +45,10 @@ class Drawing {
     void draw_novel(const gl::Target& target, const terrain::Cut& low, std::span<const uint8_t> is_visible,
                     const view::Camera& key, const view::Camera& camera, const terrain::DrawOptions& options,
                     Coordinates coordinates = Coordinates::homogeneous);
+    // The same frame as a mask in the red channel, without a sky: 1 where the sprite shows, lod_sprite::kMaskOwn where the
+    // terrain's own texture does. For targets of one sample a pixel.
+    void draw_mask(const gl::Target& target, const terrain::Cut& low, std::span<const uint8_t> is_visible,
+                   const view::Camera& key, const view::Camera& camera, const terrain::DrawOptions& options);
 
     // What the last draw sent to the card, and what the sprite takes there.
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }
@@ -53,6 +57,8 @@ class Drawing {
   private:
     Drawing() = default;
     void copy_colours(const gl::Target& target) const;
+    void draw_low(const gl::Target& target, const terrain::Cut& low, std::span<const uint8_t> is_visible, const view::Camera& key,
+                  const view::Camera& camera, const terrain::DrawOptions& options, Coordinates coordinates, bool is_mask);
 
     terrain::Drawing* ground_ = nullptr;
     uint32_t width_px_ = 0, height_px_ = 0;

@@ -125,6 +125,15 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
     return counts;
 }
 
+std::optional<view::Camera> FrameDrawer::key_camera() const {
+    if (decision_.is_key() || !drawing_) return std::nullopt;
+    return sprite_.key_camera();
+}
+
+void FrameDrawer::draw_mask(const gl::Target& target) {
+    drawing_->draw_mask(target, low_, flags_, sprite_.key_camera(), camera_, options_.look);
+}
+
 Result<void> FrameDrawer::take_key(const gl::Target& target) {
     Result<void> drawn = drawing_->draw_key(target, high_, camera_, options_.look, depth_);
     if (!drawn) return drawn;

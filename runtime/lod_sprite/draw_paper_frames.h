@@ -39,6 +39,11 @@ class FrameDrawer {
     // Fails as Drawing::make.
     Result<FrameCounts> draw(const gl::Target& target);
 
+    // Of the key that the novel frame drawn last is made from; none of a keyframe. And which of the novel frame's pixels are from
+    // it (Drawing::draw_mask).
+    std::optional<view::Camera> key_camera() const;
+    void draw_mask(const gl::Target& target);
+
   private:
     void decide_key();
     void decide_novel();

@@ -130,6 +130,7 @@ void main() {
     float low_m, slack_depth_m;
     look(ray_m, low_m, slack_depth_m);
     vec4 sum = vec4(0.0);
+    int used = 0;
     for (int k = 0; k < KEYS; ++k) {
         Found found = find(k, ray_m, low_m, slack_depth_m);
         float weight = key_weights[k] * found.is_found * (1.0 - found.is_sky);
@@ -137,9 +138,14 @@ void main() {
         found.encoded = dot(found.encoded, vec3(0.3, 0.6, 0.1)) * (k == 0 ? vec3(1.0) : vec3(1.0, 0.9, 0.3));
 #endif
         sum += weight * vec4(found.encoded, 1.0);
+        if (weight > 0.0) used |= 1 << k;
     }
     if (sum.a == 0.0 || low_m < near_depth_m) discard;
+#ifdef MASK_OWN
+    colour = vec4(float(used) / 255.0, 0.0, 0.0, 1.0);
+#else
     colour = vec4(sum.rgb / sum.a, 1.0);
+#endif
 }
 )";
 
@@ -158,7 +164,11 @@ void main() {
 #ifdef SHOWS_SOURCES
     own = (is_near ? vec3(0.2, 0.5, 1.0) : vec3(1.0, 0.25, 0.15)) * (0.15 + dot(own, vec3(0.21, 0.72, 0.07)));
 #endif
+#ifdef MASK_OWN
+    colour = vec4(float(is_near ? MASK_NEAR : MASK_OWN) / 255.0, 0.0, 0.0, 1.0);
+#else
     colour = vec4(encoded(behind_air(own, surface.relative_m)), 1.0);
+#endif
 }
 )";
 

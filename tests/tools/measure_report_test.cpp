@@ -128,7 +128,7 @@ TEST(FramesTable, NamesTheUnitOfEveryNumberThatHasOne) {
         "triangles|key_triangles|key_pixels|vertex_references|draw_calls|tested|events|luma_difference|g_max|g_median|g_above");
     for (const Figure& one : figures()) {
         std::string name(one.name);
-        bool has_unit = std::regex_search(name, std::regex("_(ms|px|bytes|db|luma|flip)$"));
+        bool has_unit = std::regex_search(name, std::regex("_(ms|px|bytes|db|luma|flip|share)$"));
         EXPECT_TRUE(has_unit || std::regex_match(name, kCounts)) << name;
     }
 }

@@ -48,6 +48,13 @@ Frame captured(const gl::Target& colour, const gl::Target& middle, const view::C
     return frame;
 }
 
+std::vector<uint8_t> mask_of(const gl::Target& target) {
+    ImageRgb8 picture = target.read();
+    std::vector<uint8_t> mask(size_t(picture.width) * picture.height);
+    for (size_t i = 0; i < mask.size(); ++i) mask[i] = picture.pixels[3 * i];
+    return mask;
+}
+
 ImageRgb8 box_filtered(const ImageRgb8& image, uint32_t factor) {
     assert(factor >= 1 && image.width % factor == 0 && image.height % factor == 0);
     ImageRgb8 small{image.width / factor, image.height / factor, {}};

@@ -11,6 +11,9 @@ namespace overlook::measure {
 // was drawn (it may be the same target).
 Frame captured(const gl::Target& colour, const gl::Target& middle, const view::Camera& camera);
 
+// The red channel, [height, width] top row first.
+std::vector<uint8_t> mask_of(const gl::Target& target);
+
 // Averages blocks of factor x factor pixels in linear light. width and height must be multiples of factor >= 1.
 ImageRgb8 box_filtered(const ImageRgb8& image, uint32_t factor);
 

@@ -23,7 +23,7 @@ std::optional<double> of_g(R record, Value value) {
     return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
 }
 
-constexpr std::array<Figure, 26> kFigures = {{
+constexpr std::array<Figure, 29> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -33,6 +33,12 @@ constexpr std::array<Figure, 26> kFigures = {{
     {"hole_px", "pixels that show through what should be there", [](R r) -> O { return r.numbers.hole_count; }, true},
     {"hole_allowed_px", "pixels that would be holes, but for the error that was promised",
      [](R r) -> O { return r.numbers.hole_allowed_count; }, true},
+    {"ghost_share", "of the surface's pixels, those shown from a keyframe that did not see them",
+     [](R r) -> O { return r.numbers.ghost_share; }, true},
+    {"loss_share", "of the surface's pixels, those that a keyframe saw but none shows; near geometry is neither",
+     [](R r) -> O { return r.numbers.loss_share; }, true},
+    {"near_share", "of the surface's pixels, those drawn as geometry on purpose", [](R r) -> O { return r.numbers.near_share; },
+     true},
     {"psnr_db", "peak signal to noise against the reference", [](R r) -> O { return r.numbers.psnr_db; }, true},
     {"luma_difference", "mean absolute difference of luma, 0..1", [](R r) -> O { return r.numbers.luma_difference; }, true},
     {"frame_ms", "deciding and drawing", [](R r) -> O { return r.frame_ms(); }, false},

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "runtime/lod_sprite/draw_frames.h"
+#include "tools/measure/capture.h"
 
 namespace overlook::measure {
 namespace {
@@ -40,6 +41,14 @@ class LodSprite : public Method {
         counters.key_pixel_count = drawn->key_pixel_count;
         counters.predicted_error_px = drawn->error_p99_px;
         return counters;
+    }
+
+    std::optional<Sources> sources(const gl::Target& middle) override {
+        std::vector<view::Camera> keys = frames_->texel_cameras();
+        if (keys.empty()) return std::nullopt;
+        [[maybe_unused]] Result<void> drawn = frames_->draw_mask(middle);
+        assert(drawn);
+        return Sources{mask_of(middle), std::move(keys)};
     }
 
   private:

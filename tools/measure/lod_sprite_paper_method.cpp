@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "runtime/lod_sprite/draw_paper_frames.h"
+#include "tools/measure/capture.h"
 
 namespace overlook::measure {
 namespace {
@@ -37,6 +38,15 @@ class LodSpritePaper : public Method {
         counters.event_count = drawn->rekeyed != Cause::none;
         counters.predicted_error_px = drawn->error_p99_px;
         return counters;
+    }
+
+    // Of no keyframe, which is drawn in full.
+    // Of no keyframe, which is drawn in full.
+    std::optional<Sources> sources(const gl::Target& middle) override {
+        std::optional<view::Camera> key = frames_.key_camera();
+        if (!key) return std::nullopt;
+        frames_.draw_mask(middle);
+        return Sources{mask_of(middle), {*key}};
     }
 
   private:

@@ -30,6 +30,14 @@ struct Counters {
     bool operator==(const Counters&) const = default;
 };
 
+// Where the pixels of a frame came from, of a method that shows pictures again.
+struct Sources {
+    static constexpr uint8_t kOwn = 64;    // a coarse surface's own colours, because no picture shows it
+    static constexpr uint8_t kNear = 128;  // geometry as fine as asked, on purpose: neither a ghost nor a loss
+    std::vector<uint8_t> of_pixel;   // [height, width] top row first: bit k = keys[k] shows it, or the above; 0 = background
+    std::vector<view::Camera> keys;  // of the pictures in use, at most 6; their sizes are the pictures'
+};
+
 // One method with one setting. Frames come in the order of the flight, each once: first decide, then draw, then perhaps draw
 // again into other targets, which must give the same picture. A context must be current.
 class Method {
@@ -42,6 +50,12 @@ class Method {
     // Of the frame decided last, measured against the source; nothing of a method that promises nothing. Takes its time, which
     // is nobody's frame's; the pictures after it are the same as without it.
     virtual std::optional<Promises> promises() { return std::nullopt; }
+    // Of the frame drawn last, at the pixels' middles; nothing where it used no picture. middle: has one sample a pixel and the
+    // frame's size, and is drawn over. The pictures after it are the same as without it.
+    virtual std::optional<Sources> sources(const gl::Target& middle) {
+        static_cast<void>(middle);
+        return std::nullopt;
+    }
 };
 
 // A method as it was asked for: "terrain@error-px=2@samples=4".

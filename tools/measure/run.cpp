@@ -10,6 +10,7 @@
 #include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/numbers/frame_subset.h"
+#include "tools/measure/reuse_truth.h"
 
 namespace overlook::measure {
 namespace {
@@ -119,8 +120,8 @@ void take_e(const Frame& test, const Frame& reference, FrameRecord& record, Wors
 // Measures the frames of all runs, as many as are compared. Frame 0 has none before it.
 class Judge {
   public:
-    Judge(ReferenceRenderer& reference, const Course& course, TimeSpent& spent)
-        : reference_(reference), course_(course), spent_(spent) {}
+    Judge(World& world, ReferenceRenderer& reference, const Course& course, TimeSpent& spent)
+        : truth_(world), reference_(reference), course_(course), spent_(spent) {}
 
     // Once a frame, when all runs have drawn it and are captured.
     Result<void> judge(Field& field, uint32_t frame) {
@@ -178,6 +179,14 @@ class Judge {
             RunResult& result = field.results[i];
             FrameRecord& record = result.frames[frame];
             if (Result<void> judged = judge_one(result, running.now, truth, frame); !judged) return judged;
+            std::optional<Sources> sources = running.method->sources(field.targets.at(1));
+            if (sources) {
+                Result<Reuse> reuse = truth_.reuse(*sources, truth);
+                if (!reuse) return tl::unexpected(reuse.error());
+                record.numbers.ghost_share = reuse->errors.ghost_share;
+                record.numbers.loss_share = reuse->errors.loss_share;
+                record.numbers.near_share = reuse->near_share;
+            }
             if (wants_e) take_e(running.now, truth, record, result.worst_e);
             if (has_event && before_) take_e(running.before, *before_, result.frames[frame - 1], result.worst_e);
             if (motion) {
@@ -188,6 +197,7 @@ class Judge {
         return {};
     }
 
+    ReuseTruth truth_;
     ReferenceRenderer& reference_;
     const Course& course_;
     TimeSpent& spent_;
@@ -238,7 +248,7 @@ Result<CourseResult> run_course(World& world, const Course& course, const gl::Re
     std::vector<uint32_t> g_chosen = spread_frames(uint32_t(course.cameras.size()), kMostHonestyFrames);
     std::set<uint32_t> g_frames(g_chosen.begin(), g_chosen.end());
     TimeSpent spent;
-    Judge judge(*reference, course, spent);
+    Judge judge(world, *reference, course, spent);
     for (uint32_t frame = 0; frame < course.cameras.size(); ++frame) {
         const view::Camera& camera = course.cameras[frame];
         for (size_t i = 0; i < course.specs.size(); ++i) {

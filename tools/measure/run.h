@@ -41,6 +41,8 @@ struct Numbers {
     std::optional<double> s_p95_px, s_max_px;
     std::optional<double> hole_count, hole_allowed_count;  // allowed: not counted, for the error promised explains them
     std::optional<double> psnr_db, luma_difference;
+    // Of methods that show pictures again, where they did: shares of the surface's pixels (reuse_truth.h).
+    std::optional<double> ghost_share, loss_share, near_share;
     std::optional<Honesty> g;  // of the things drawn: on a few frames, of methods that promise something of each
 };
 

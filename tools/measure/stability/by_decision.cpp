@@ -63,6 +63,36 @@ Switching switching_of(const Stage& stage, const MethodSpec& spec, const std::ve
     return all;
 }
 
+// What switches in a method that shows pictures again: one picture takes over from another.
+Result<Finding> key_switches(const Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
+                             double step_s) {
+    Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
+    if (!target) return tl::unexpected(target.error());
+    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    uint64_t switches = 0, while_still = 0, first_second = 0;
+    uint32_t last = 0;
+    for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+        method->decide(cameras[frame], frame);
+        uint64_t events = method->draw(*target).event_count;
+        if (events == 0) continue;
+        last = frame;
+        bool is_after = frame > 0 && (frame - 1) * step_s >= 1;
+        (is_after ? switches : first_second) += events;
+        if (is_after && stands_still(cameras[frame - 1], cameras[frame])) while_still += events;
+    }
+    Finding finding;
+    finding.figures["switches_after_first_second"] = double(switches);
+    finding.frames = uint32_t(cameras.size());
+    finding.sentence = fmt::format(
+        "Keys took over {} times in the first second and {} times after it, {} of these while the "
+        "camera stood still; the last one in frame {}.",
+        first_second, switches, while_still, last);
+    Result<Shot> shot = shot_of(stage, spec, cameras[last], last);
+    if (!shot) return tl::unexpected(shot.error());
+    finding.worst = std::move(*shot);
+    return finding;
+}
+
 // What a flight of counted triangles under a budget halved at `middle` showed.
 struct Budgeted {
     uint32_t frames_until_met = 0;
@@ -91,6 +121,12 @@ Result<std::vector<Finding>> run_jitter(Stage& stage, const Case&, const scene::
     std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
+        if (is_image(spec)) {
+            Result<Finding> finding = key_switches(stage, spec, cameras, flight.step_s);
+            if (!finding) return tl::unexpected(finding.error());
+            findings.push_back(std::move(*finding));
+            continue;
+        }
         Switching all = switching_of(stage, spec, cameras, flight.step_s);
         Finding finding;
         finding.figures["switches_after_first_second"] = double(all.switches);

@@ -23,7 +23,11 @@ std::optional<Shot> shown(const WorstFrame& worst) {
     return Shot{worst.frame, worst.test, worst.reference};
 }
 
-// Flies the spread frames and counts holes; S03, S04, S06, S07 and S08 begin so.
+std::vector<double> promised_px(const RunResult& run) {
+    return values_of(run, figure("predicted_error_px"));
+}
+
+// Flies the frames and counts holes; S03, S04, S06, S07 and S08 begin so.
 Result<std::vector<Finding>> count_holes(Stage& stage, const std::vector<view::Camera>& cameras, double step_s,
                                          std::span<const MethodSpec> specs) {
     Result<CourseResult> course = fly(stage, cameras, step_s, specs);
@@ -38,9 +42,23 @@ Result<std::vector<Finding>> count_holes(Stage& stage, const std::vector<view::C
         finding.figures["silhouette_p95_px"] = greatest(run, "s_p95_px");
         finding.frames = uint32_t(cameras.size());
         finding.worst = shown(run.worst_e);
+        finding.promised_px = promised_px(run);
         findings.push_back(std::move(finding));
     }
     return findings;
+}
+
+// How many frames at a place until the method promises what was asked of it, the first counting as 0; at most kLongestWait.
+Result<uint32_t> frames_until_promised(Stage& stage, const MethodSpec& spec, Method& method, const view::Camera& camera,
+                                       uint32_t& frame) {
+    constexpr uint32_t kLongestWait = 60;
+    Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, samples_of(spec));
+    if (!target) return tl::unexpected(target.error());
+    for (uint32_t waited = 0; waited < kLongestWait; ++waited) {
+        method.decide(camera, frame++);
+        if (method.draw(*target).predicted_error_px <= stage.asked_px) return waited;
+    }
+    return kLongestWait;
 }
 
 // Pixels of the frame in which the surface stands nearer than the near plane.
@@ -56,6 +74,14 @@ Result<uint64_t> pixels_cut(Stage& stage, const MethodSpec& spec, const view::Ca
     Frame frame = captured(*target, *target, closer);
     auto is_cut = [&](float depth_m) { return double(depth_m) < camera.near_m; };
     return uint64_t(std::count_if(frame.depth_m.begin(), frame.depth_m.end(), is_cut));
+}
+
+std::string events_sentence(const RunResult& run) {
+    std::string frames;
+    for (const FrameRecord& record : run.frames) {
+        if (record.counters.event_count > 0) frames += (frames.empty() ? "" : ", ") + std::to_string(record.frame);
+    }
+    return frames.empty() ? " No key took over." : " Keys took over in frames " + frames + ".";
 }
 
 // Every pixel where it was.
@@ -107,38 +133,51 @@ Result<std::vector<Finding>> run_dolly(Stage& stage, const Case&, const scene::F
     std::vector<Finding> findings;
     for (size_t i = 0; i < specs.size(); ++i) {
         const RunResult& run = course->runs[i];
-        Result<double> change = change_by_triangles(stage, specs[i], cameras);
-        if (!change) return tl::unexpected(change.error());
         Finding finding;
         finding.figures["pop_index"] = run.pop.index;
-        finding.figures["change_by_triangles"] = *change;
         finding.frames = uint32_t(cameras.size());
         finding.worst = shown(run.worst_w);
         finding.sentence = fmt::format(
             "The greatest unrest above full geometry's is {:.4f} luma, in frame {}, tile {}, {}; median {:.4f}, "
-            "full geometry's {:.4f}. New triangles alone, under a camera held still, change no tile by more than {:.5f} luma.",
-            run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median,
-            *change);
+            "full geometry's {:.4f}.",
+            run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median);
+        if (is_image(specs[i])) {
+            finding.sentence += events_sentence(run);
+        } else {
+            Result<double> change = change_by_triangles(stage, specs[i], cameras);
+            if (!change) return tl::unexpected(change.error());
+            finding.figures["change_by_triangles"] = *change;
+            finding.sentence +=
+                fmt::format(" New triangles alone, under a camera held still, change no tile by more than {:.5f} luma.", *change);
+        }
         findings.push_back(std::move(finding));
     }
     return findings;
 }
 
 Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Flight& flight, std::span<const MethodSpec> specs) {
-    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, pick_of(specs, Pick::spread));
     Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
     for (size_t i = 0; i < specs.size(); ++i) {
         Finding& finding = (*findings)[i];
         double worst_px = 0, above = 0;
-        for (const view::Camera& camera : cameras) {
-            double error_px = displacement_of(stage, specs[i], camera).measured_px;
+        std::vector<double> errors_px = finding.promised_px;
+        if (!is_image(specs[i])) {
+            errors_px.clear();
+            for (const view::Camera& camera : cameras) errors_px.push_back(displacement_of(stage, specs[i], camera).measured_px);
+        }
+        for (double error_px : errors_px) {
             worst_px = std::max(worst_px, error_px);
             above += error_px > 2 * stage.asked_px ? 1 : 0;
         }
         finding.figures["frames_above_twice_asked_error"] = above;
-        finding.sentence = fmt::format("No source sample is drawn farther than {:.3f} px from its place, {} px asked.", worst_px,
-                                       stage.asked_px);
+        finding.sentence =
+            is_image(specs[i])
+                ? fmt::format("It promises no worse than {:.3f} px for 99 % of a frame's pixels, {} px asked; not measured.",
+                              worst_px, stage.asked_px)
+                : fmt::format("No source sample is drawn farther than {:.3f} px from its place, {} px asked.", worst_px,
+                              stage.asked_px);
     }
     return findings;
 }
@@ -154,6 +193,19 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
     if (!findings) return findings;
     for (size_t i = 0; i < specs.size(); ++i) {
         Finding& finding = (*findings)[i];
+        if (is_image(specs[i])) {
+            std::unique_ptr<Method> method = make_method(specs[i], stage.world);
+            uint32_t frame = 0, longest = 0;
+            for (const view::Camera& camera : arrivals) {
+                Result<uint32_t> waited = frames_until_promised(stage, specs[i], *method, camera, frame);
+                if (!waited) return tl::unexpected(waited.error());
+                longest = std::max(longest, *waited);
+            }
+            finding.figures["frames_until_error_met"] = longest;
+            finding.sentence = fmt::format("After a teleport it takes {} frames at most until it promises {} px; not measured.",
+                                           longest, stage.asked_px);
+            continue;
+        }
         // A cut depends on the camera alone, so that the frames after the first are the first again.
         double worst_px = 0;
         for (const view::Camera& camera : arrivals)
@@ -169,7 +221,7 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
 
 Result<std::vector<Finding>> run_skimming(Stage& stage, const Case&, const scene::Flight& flight,
                                           std::span<const MethodSpec> specs) {
-    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, pick_of(specs, Pick::spread));
     // The eye is 1.2 times as high above the ground as its near plane is away.
     Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
@@ -190,7 +242,8 @@ Result<std::vector<Finding>> run_skimming(Stage& stage, const Case&, const scene
 
 Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene::Flight& flight,
                                          std::span<const MethodSpec> specs) {
-    Result<std::vector<Finding>> findings = count_holes(stage, cameras_of(stage, flight, Pick::spread), flight.step_s, specs);
+    Result<std::vector<Finding>> findings =
+        count_holes(stage, cameras_of(stage, flight, pick_of(specs, Pick::spread)), flight.step_s, specs);
     if (!findings) return findings;
     for (Finding& finding : *findings) {
         finding.sentence = fmt::format("In the worst frame 95 % of the outline stands within {:.2f} px of where it should.",
@@ -201,7 +254,7 @@ Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene:
 
 Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::Flight& flight,
                                        std::span<const MethodSpec> specs) {
-    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, pick_of(specs, Pick::spread));
     Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
     // A terrain is baked for every distance down to where its own heights are too coarse for the error asked: nearer, it falls
@@ -210,8 +263,10 @@ Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::F
     for (size_t i = 0; i < specs.size(); ++i) {
         uint32_t fallbacks = 0, unsaid = 0;
         double worst_px = 0;
-        for (const view::Camera& camera : cameras) {
-            Displacement frame = displacement_of(stage, specs[i], camera, finest_m);
+        for (size_t at = 0; at < cameras.size(); ++at) {
+            // Keys show the fine cut; what the frame promises, the method says.
+            Displacement frame = displacement_of(stage, specs[i], cameras[at], finest_m);
+            if (is_image(specs[i])) frame.predicted_px = (*findings)[i].promised_px[at];
             worst_px = std::max(worst_px, frame.measured_px);
             if (frame.measured_px <= stage.asked_px) continue;
             ++fallbacks;

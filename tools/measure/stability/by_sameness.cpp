@@ -116,7 +116,7 @@ Result<std::vector<Finding>> run_cameras(Stage& stage, const Case& each, const s
 
 Result<std::vector<Finding>> run_moved_world(Stage& stage, const Case& each, const scene::Flight& flight,
                                              std::span<const MethodSpec> specs) {
-    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, pick_of(specs, Pick::spread));
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
         Finding finding;
@@ -161,14 +161,20 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
             Result<ImageRgb8> before =
                 draw_once(*method, cameras[begin - (begin > 0 ? 1 : 0)], uint32_t(begin), samples_of(spec));
             if (!before) return tl::unexpected(before.error());
+            std::unique_ptr<Method> starting;
+            Result<ImageRgb8> fresh = *before;
             for (uint32_t after = 0; after <= kSettled; ++after) {
                 view::Camera camera = cameras[begin + after];
                 camera.width_px = uint32_t(std::max(1.0, std::round(stage.width_px * shares[i])));
                 camera.height_px = uint32_t(std::max(1.0, std::round(stage.height_px * shares[i])));
                 Result<ImageRgb8> picture = draw_once(*method, camera, uint32_t(begin) + after, samples_of(spec));
                 if (!picture) return tl::unexpected(picture.error());
+                // A method with history starts afresh where the size changed, and flies the same frames.
+                if (is_image(spec) || after == kSettled) {
+                    if (!is_image(spec) || after == 0) starting = make_method(spec, stage.world);
+                    fresh = draw_once(*starting, camera, after, samples_of(spec));
+                }
                 if (after < kSettled) continue;
-                Result<ImageRgb8> fresh = draw_once(*make_method(spec, stage.world), camera, 0, samples_of(spec));
                 if (!fresh) return tl::unexpected(fresh.error());
                 stale += changed_pixels(*picture, *fresh, 0);
                 same_hashes += hash_of(*picture) == hash_of(*fresh) ? 1 : 0;
@@ -186,7 +192,7 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
 
 Result<std::vector<Finding>> run_back_and_forth(Stage& stage, const Case&, const scene::Flight& flight,
                                                 std::span<const MethodSpec> specs) {
-    std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::spread);
+    std::vector<view::Camera> cameras = cameras_of(stage, flight, pick_of(specs, Pick::spread));
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
         Finding finding;

@@ -8,6 +8,14 @@
 
 namespace overlook::measure {
 
+bool is_image(const MethodSpec& spec) {
+    return spec.name == "lod-sprite";
+}
+
+Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry) {
+    return is_image(specs.front()) ? Pick::in_row : of_geometry;
+}
+
 std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick) {
     uint32_t whole = scene::frame_count(flight);
     bool takes_all = pick == Pick::all || stage.frames == 0 || stage.frames >= whole;

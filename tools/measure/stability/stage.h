@@ -35,6 +35,7 @@ struct Finding {
     std::string sentence;
     uint32_t frames = 0;
     std::optional<Shot> worst;
+    std::vector<double> promised_px{};  // of the frames, where holes were counted
 };
 
 // Which of a flight's frames.
@@ -43,6 +44,10 @@ enum class Pick {
     in_row,  // the first stage.frames, at the flight's own step: for what changes from frame to frame
     spread,  // stage.frames over the whole flight: for what each frame is by itself
 };
+// Whether a method shows pictures again: what a frame is then depends on the frames before it, and flights are flown in their
+// steps, the first stage.frames of them, where others may be taken frame by frame.
+bool is_image(const MethodSpec& spec);
+Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry);  // specs: all image or none
 std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick);
 
 // One picture of a method as it stands. Fails with Exit::impossible (targets).
@@ -52,7 +57,7 @@ uint32_t samples_of(const MethodSpec& spec);
 // A frame of a new method and the reference's. Fails as ReferenceRenderer does.
 Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame);
 
-// One of the case's ways to run: a finding for each spec, in their order.
+// One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods or none is.
 using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on frames beside the reference: S01, S03, S04, S06, S07, S08, S16.
@@ -69,6 +74,10 @@ Result<std::vector<Finding>> run_moved_world(Stage&, const Case&, const scene::F
 Result<std::vector<Finding>> run_resize(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_cameras(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// Cases of methods that show pictures again: S05, S15.
+Result<std::vector<Finding>> run_ridge(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_turning_back(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on what is decided: S02, S11, S19.
 Result<std::vector<Finding>> run_jitter(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);

@@ -10,9 +10,10 @@ struct Ready {
     CaseRunner run;
 };
 constexpr Ready kReady[] = {
-    {"S01", run_dolly},   {"S02", run_jitter},  {"S03", run_yaw},           {"S04", run_teleports},      {"S06", run_skimming},
-    {"S07", run_horizon}, {"S08", run_climb},   {"S11", run_slopes},        {"S12", run_moved_world},    {"S16", run_dropping},
-    {"S17", run_resize},  {"S18", run_cameras}, {"S19", run_halved_budget}, {"S20", run_back_and_forth},
+    {"S01", run_dolly},  {"S02", run_jitter},      {"S03", run_yaw},           {"S04", run_teleports},
+    {"S05", run_ridge},  {"S06", run_skimming},    {"S07", run_horizon},       {"S08", run_climb},
+    {"S11", run_slopes}, {"S12", run_moved_world}, {"S15", run_turning_back},  {"S16", run_dropping},
+    {"S17", run_resize}, {"S18", run_cameras},     {"S19", run_halved_budget}, {"S20", run_back_and_forth},
 };
 
 CaseRunner runner_of(const std::string& number) {
@@ -22,11 +23,11 @@ CaseRunner runner_of(const std::string& number) {
     return nullptr;
 }
 
-// The gates that concern methods which draw geometry, as all today do.
-std::vector<HeldGate> held(const Case& each, const Finding& finding, double asked_px) {
+// The gates that concern the method.
+std::vector<HeldGate> held(const Case& each, const MethodSpec& spec, const Finding& finding, double asked_px) {
     std::vector<HeldGate> gates;
     for (const CaseGate& gate : each.gates) {
-        if (gate.of == "image") continue;
+        if (gate.of == (is_image(spec) ? "geometry" : "image")) continue;
         double limit = gate.over_asked_px >= 0 ? asked_px + gate.over_asked_px : gate.most;
         gates.push_back({gate.figure, finding.figures.at(gate.figure), limit});
     }
@@ -39,22 +40,24 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 Result<void> run_case(Stage& stage, const Case& each, std::span<const MethodSpec> specs, SuiteResult& result) {
     CaseRunner run = runner_of(each.number);
-    std::vector<MethodSpec> concerned;
+    std::vector<MethodSpec> geometry, image;
     for (const MethodSpec& spec : specs) {
-        if (run != nullptr && has(each.runs, spec.name)) concerned.push_back(spec);
+        if (run != nullptr && has(each.runs, spec.name)) (is_image(spec) ? image : geometry).push_back(spec);
     }
     for (const std::string& method : each.methods) {
         if (run == nullptr || !has(each.runs, method)) result.owed.push_back({each.number, each.what, method});
     }
-    if (concerned.empty()) return {};
-    Result<scene::Flight> flight = scene::read_flight(each.flight);
-    if (!flight) return tl::unexpected(flight.error());
-    Result<std::vector<Finding>> findings = run(stage, each, *flight, concerned);
-    if (!findings) return tl::unexpected(findings.error());
-    for (size_t i = 0; i < concerned.size(); ++i) {
-        Finding& finding = (*findings)[i];
-        std::vector<HeldGate> gates = held(each, finding, stage.asked_px);
-        result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding), each.note});
+    for (const std::vector<MethodSpec>& concerned : {geometry, image}) {
+        if (concerned.empty()) continue;
+        Result<scene::Flight> flight = scene::read_flight(each.flight);
+        if (!flight) return tl::unexpected(flight.error());
+        Result<std::vector<Finding>> findings = run(stage, each, *flight, concerned);
+        if (!findings) return tl::unexpected(findings.error());
+        for (size_t i = 0; i < concerned.size(); ++i) {
+            Finding& finding = (*findings)[i];
+            std::vector<HeldGate> gates = held(each, concerned[i], finding, stage.asked_px);
+            result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding), each.note});
+        }
     }
     return {};
 }
@@ -66,7 +69,7 @@ bool Verdict::is_kept() const {
 }
 
 bool is_baseline(const MethodSpec& spec) {
-    return spec.name == "terrain" && spec.variant == "hard";
+    return family_of(spec) == "terrain:hard" || family_of(spec) == "lod-sprite:paper";
 }
 
 bool is_kept(const SuiteResult& result) {

@@ -41,8 +41,8 @@ struct SuiteResult {
 Result<SuiteResult> run_suite(Stage& stage, const std::vector<Case>& cases, std::span<const MethodSpec> specs,
                               const std::function<void(double)>& done);
 
-// terrain:hard, which exchanges its levels at once: what the morphing one is seen beside; its misses are shown and not held
-// against it.
+// terrain:hard, which exchanges its levels at once, and lod-sprite:paper: what the remedied forms are seen beside; their misses
+// are shown and not held against them.
 bool is_baseline(const MethodSpec& spec);
 
 // Whether all but the baselines kept their gates.
