@@ -72,6 +72,7 @@ class Director {
     void forget();
 
     const Settings& settings() const { return settings_; }
+    double key_cut_px() const;  // what keys promise at their own pose
     uint64_t keys_made() const { return keys_made_; }
     uint64_t key_triangles() const { return slice_triangles_; }  // of this frame's key work
 
@@ -94,7 +95,6 @@ class Director {
     void judge_keys();
     Reuse reuse(uint32_t slot, const view::Camera& camera) const;
     double most_error_px() const;
-    double key_cut_px() const;
     bool serves(const Reuse& reuse) const;
     bool may_rest() const;
     uint32_t frames_left() const;

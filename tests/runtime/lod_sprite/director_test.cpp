@@ -186,7 +186,7 @@ TEST(Director, DrawsEachTriangleOfAKeyOnce) {
     int compared = 0;
     for (size_t i = 0; i < flight.drawn.size(); ++i) {
         if (!flight.ended[i]) continue;
-        ground().refiner.cut_by_pixels(flight.drawn[i].first, flight.director().settings().error_px, whole);
+        ground().refiner.cut_by_pixels(flight.drawn[i].first, flight.director().key_cut_px(), whole);
         EXPECT_EQ(flight.drawn[i].second, triangles_of(whole.indices)) << "key " << i;
         ++compared;
     }
