@@ -1,6 +1,6 @@
 #include "tests/bench/work.h"
 
-#include "tests/bench/allocations.h"
+#include "tests/allocations.h"
 #include "tests/bench/machine.h"
 
 namespace overlook::bench {
@@ -10,9 +10,9 @@ void repeat(benchmark::State& state, const std::function<Work()>& work) {
     Work done = work();
     uint64_t allocations = 0, iterations = 0;
     for ([[maybe_unused]] auto iteration : state) {
-        uint64_t before = allocation_count();
+        uint64_t before = test::allocation_count();
         done = work();
-        allocations += allocation_count() - before;
+        allocations += test::allocation_count() - before;
         ++iterations;
         benchmark::ClobberMemory();
     }

@@ -2,29 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "tests/allocations.h"
 #include "tests/runtime/lod_sprite/paper_fixture.h"
 #include "tests/tools/synthetic_dem.h"
 #include "tools/bake/terrain.h"
-
-namespace {
-std::atomic<uint64_t> allocation_count = 0;
-}
-
-void* operator new(size_t bytes) {
-    ++allocation_count;
-    if (void* memory = std::malloc(bytes)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-    std::free(memory);
-}
 
 namespace overlook::lod_sprite::paper {
 namespace {
@@ -166,14 +147,14 @@ TEST(PaperSprite, TakesNoMemoryInTheSteadyState) {
     std::vector<float> depth = hills.depth(hills.camera(0));
     uint64_t before = 0;
     for (int round = 0; round < 2; ++round) {
-        before = allocation_count;
+        before = test::allocation_count();
         for (int frame = 0; frame < 10; ++frame) {
             sprite.decide(hills.camera(3.0 * frame), cuts[size_t(frame)]);
             if (frame % 5 == 0) sprite.keep(hills.camera(3.0 * frame), depth, cuts[size_t(frame)]);
             EXPECT_GT(sprite.flags(cuts[size_t(frame)]).size(), 100u);
         }
     }
-    EXPECT_EQ(allocation_count - before, 0u);
+    EXPECT_EQ(test::allocation_count() - before, 0u);
 }
 
 }  // namespace

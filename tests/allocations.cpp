@@ -1,4 +1,4 @@
-#include "tests/bench/allocations.h"
+#include "tests/allocations.h"
 
 #include <atomic>
 #include <cstdlib>
@@ -31,10 +31,10 @@ void operator delete(void* memory, std::size_t) noexcept {
     std::free(memory);
 }
 
-namespace overlook::bench {
+namespace overlook::test {
 
 uint64_t allocation_count() {
     return calls.load(std::memory_order_relaxed);
 }
 
-}  // namespace overlook::bench
+}  // namespace overlook::test

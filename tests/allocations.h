@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-namespace overlook::bench {
+namespace overlook::test {
 
 // Calls of operator new by all threads so far, malloc's other users not counted.
 uint64_t allocation_count();
 
-}  // namespace overlook::bench
+}  // namespace overlook::test
