@@ -25,7 +25,7 @@ inline terrain::Cut squares_cut(uint32_t side, uint32_t step) {
     for (uint32_t row = 0; row + step < side; row += step)
         for (uint32_t column = 0; column + step < side; column += step) {
             uint32_t nw = row * side + column, ne = nw + step, sw = nw + step * side, se = sw + step;
-            cut.indices.insert(cut.indices.end(), {ne, nw, se, sw, se, nw});
+            for (uint32_t corner : {ne, nw, se, sw, se, nw}) cut.indices.push_back(corner);
         }
     return cut;
 }

@@ -147,14 +147,14 @@ TEST(PaperSprite, TakesNoMemoryInTheSteadyState) {
     std::vector<float> depth = hills.depth(hills.camera(0));
     uint64_t before = 0;
     for (int round = 0; round < 2; ++round) {
-        before = test::allocation_count();
+        before = overlook::test::allocation_count();
         for (int frame = 0; frame < 10; ++frame) {
             sprite.decide(hills.camera(3.0 * frame), cuts[size_t(frame)]);
             if (frame % 5 == 0) sprite.keep(hills.camera(3.0 * frame), depth, cuts[size_t(frame)]);
             EXPECT_GT(sprite.flags(cuts[size_t(frame)]).size(), 100u);
         }
     }
-    EXPECT_EQ(test::allocation_count() - before, 0u);
+    EXPECT_EQ(overlook::test::allocation_count() - before, 0u);
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ TEST(PaperFlags, ShowATriangleOnlyIfAllItsVerticesWere) {
     KeyDepth key;
     key.keep(ground.camera, depth);
     terrain::Cut cut = test::squares_cut(9, 8);  // the hidden corner is one of both triangles
-    cut.indices.insert(cut.indices.end(), {8, 72, 80});
+    for (uint32_t corner : {8u, 72u, 80u}) cut.indices.push_back(corner);
     TriangleFlags flags(ground.terrain, metres(3), NewTriangles::hidden);
     flags.start(key, cut);
     EXPECT_EQ(flags_of(flags, key, cut), (std::vector<uint8_t>{0, 0, 1}));
@@ -172,7 +172,7 @@ TEST(PaperFlags, AreTheTrianglesWhereverItsCornersBegin) {
     key.keep(ground.camera, ground.depth());
     terrain::Cut cut = test::squares_cut(9, 8), turned;
     for (size_t i = 0; i < cut.indices.size(); i += 3)
-        turned.indices.insert(turned.indices.end(), {cut.indices[i + 1], cut.indices[i + 2], cut.indices[i]});
+        for (size_t j : {i + 1, i + 2, i}) turned.indices.push_back(cut.indices[j]);
     TriangleFlags flags(ground.terrain, metres(3), NewTriangles::hidden);
     flags.start(key, cut);
     EXPECT_EQ(flags_of(flags, key, turned), (std::vector<uint8_t>{1, 1}));
