@@ -131,7 +131,7 @@ Result<Context> Context::on_display(void* display) {
     return made;
 }
 
-Result<Context> Context::headless() {
+Result<Context> Context::headless(Platform platform) {
     // libepoxy ends the process when a library is not there, so it is asked only if it is.
     if (dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL) == nullptr) {
         return no_context("EGL is not installed (libEGL.so.1)");
@@ -139,7 +139,10 @@ Result<Context> Context::headless() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!has_extension(extensions, "EGL_EXT_platform_base")) return no_context("EGL is too old");
 
-    Result<Context> plain = on_display(surfaceless_display(extensions));
+    Result<Context> plain = impossible("no EGL device gives a context");
+    if (platform != Platform::device) plain = on_display(surfaceless_display(extensions));
+    if (platform == Platform::surfaceless && !plain) return no_context(plain.error().message);
+    if (platform == Platform::surfaceless) return plain;
     if (plain && (!plain->renderer().is_software || hardware_is_refused())) return plain;
     for (EGLDisplay display : device_displays(extensions)) {
         Result<Context> on_device = on_display(display);

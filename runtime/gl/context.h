@@ -39,13 +39,21 @@ class ErrorCounter {
 // "OpenGL 4.5 is needed, this renderer has 3.1: softpipe".
 Result<Renderer> describe_current_context();
 
+// How EGL is asked for a context without a window.
+enum class Platform {
+    best,         // hardware, by whichever of the others gives it; else software
+    surfaceless,  // Mesa's own
+    device,       // EGL_EXT_platform_device: each device in turn
+};
+
 // A context that draws into framebuffer objects only. Made by EGL without a surface; where that gives no hardware or is
 // refused, on the first EGL device that gives a context. LIBGL_ALWAYS_SOFTWARE=1 (Mesa's own switch) keeps it from
 // looking for hardware. It is made current in the calling thread, and only there may it be used.
 class Context {
   public:
     // Fails with Exit::impossible: "no OpenGL 4.5 without a window here: EGL is not installed (libEGL.so.1)".
-    static Result<Context> headless();
+    // Of one platform alone: "no OpenGL 4.5 without a window here: no EGL device gives a context".
+    static Result<Context> headless(Platform platform = Platform::best);
     Context(Context&& other) noexcept;
     Context& operator=(Context&& other) noexcept;
     ~Context();

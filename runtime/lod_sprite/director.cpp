@@ -15,7 +15,6 @@ constexpr double kRest = 0.7;         // a key whose error keeps under this shar
 constexpr double kMostLost = 0.3;     // of the frame: a key that has less to show is not looked into
 constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
 constexpr double kFillWeight = 1.0 / 1024;
-constexpr double kUnkeyedFiner = 4;        // without a key the coarse cut keeps low_error_px over this
 constexpr uint64_t kLeastSlice = 512;      // triangles
 constexpr uint64_t kUnknownKey = 1 << 18;  // triangles, before there was one
 constexpr double kAimAhead = 2.25;         // of the slices: a key ahead of the camera opens less than one behind it
@@ -24,28 +23,29 @@ constexpr double kRoom = 1.5;              // a key promises so much better than
 }  // namespace
 
 Director::Director(const terrain::Refiner& refiner, const Settings& settings)
-    : refiner_(refiner), settings_(settings), slots_(settings.slots) {
+    : refiner_(refiner), settings_(settings), spending_(settings.triangles), slots_(settings.slots) {
     assert(settings.slots >= 2);
 }
 
 void Director::forget() {
     for (Slot& slot : slots_) slot.is_whole = false;
-    current_.reset(), before_.reset(), making_.reset();
+    current_.reset(), before_.reset(), waiting_.reset(), making_.reset();
     fade_left_ = 0;
     track_.forget();
 }
 
 Reuse Director::reuse(uint32_t slot, const view::Camera& camera) const {
-    return reuse_of(slots_[slot].key, camera, settings_.low_error_px);
+    double coarser = spending_.coarser(true);
+    return reuse_of(slots_[slot].key, camera, settings_.low_error_px * coarser, settings_.error_px * coarser);
 }
 
 // A key's own promise passes, whatever rounding made of it.
 double Director::most_error_px() const {
-    return settings_.key_error_px * (1 + 1e-6);
+    return settings_.key_error_px * spending_.keys_coarser() * (1 + 1e-6);
 }
 
 double Director::key_cut_px() const {
-    return std::min(settings_.error_px, settings_.key_error_px / kRoom);
+    return std::min(settings_.error_px, settings_.key_error_px / kRoom) * spending_.keys_coarser();
 }
 
 bool Director::serves(const Reuse& reuse) const {
@@ -100,7 +100,7 @@ uint32_t Director::slot_to_empty() const {
     double worst_error = -1;
     for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
         if (!slots_[slot].is_whole) return slot;
-        bool is_used = (current_ && *current_ == slot) || (before_ && *before_ == slot && slots_.size() > 2);
+        bool is_used = waiting_ == slot || (current_ && *current_ == slot) || (before_ && *before_ == slot && slots_.size() > 2);
         if (is_used) continue;
         Reuse found = reuse(slot, camera_);
         double error = found.error_p99_px + 1000 * found.lost_share();
@@ -127,9 +127,25 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     making_->cut.emplace(refiner_, into.key.camera, into.key.error_px);
 }
 
+// Whether a budget is all used, for keys as fresh as there are triangles for. A camera that stands still needs no fresh ones.
+bool Director::spends_all() const {
+    bool moves = track_.speed_m() > 0 || track_.turning_deg() > 0;
+    return settings_.mode == KeyMode::sliced && moves && spending_.binds(expected_triangles_, life_frames_);
+}
+
+// How many frames to make a key in, where the one in use goes on to serve for `left`.
+uint32_t Director::frames_to_make(uint32_t left) {
+    uint32_t frames = left == 0 ? kHurriedSlices : std::max(left, kHurriedSlices);
+    if (!spends_all() || expected_triangles_ == 0) return frames;
+    spending_.plan_key(expected_triangles_, settings_.most_slices);
+    return std::max(spending_.frames_for(expected_triangles_), kHurriedSlices);
+}
+
 // What is left of the key over the frames left to make it in, which only get fewer: a key that is needed is hurried.
 uint64_t Director::slice_triangles() {
     if (settings_.mode == KeyMode::at_once) return std::numeric_limits<uint64_t>::max();
+    uint64_t most = std::max<uint64_t>(spending_.left(slice_triangles_), 1);
+    if (spends_all()) return most;
     uint32_t left = making_->is_begun ? frames_left() : making_->frames_to_go;
     making_->frames_to_go = std::min(making_->frames_to_go, std::max(left, kHurriedSlices));
     uint64_t drawn = making_->drawn_triangles;
@@ -137,17 +153,27 @@ uint64_t Director::slice_triangles() {
     uint64_t rest = expected > drawn ? expected - drawn : expected / kHurriedSlices;
     uint64_t wanted = std::max(kLeastSlice, rest / making_->frames_to_go);
     making_->frames_to_go = std::max(1u, making_->frames_to_go - 1);
-    return wanted;
+    return std::min(wanted, most);
 }
 
 std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
-    if (is_begun_) return std::nullopt;
-    is_begun_ = true;
-    camera_ = camera;
-    bool has_jumped = track_.add(camera);
-    slice_triangles_ = 0;
-    took_over_ = Cause::none;
-    judge_keys();
+    bool has_jumped = false;
+    if (!is_begun_) {
+        is_begun_ = true;
+        camera_ = camera;
+        has_jumped = track_.add(camera);
+        slice_triangles_ = 0;
+        took_over_ = Cause::none;
+        judge_keys();
+        if (waiting_) {
+            take_over(*waiting_, reuse(*waiting_, camera_), slots_[*waiting_].cause);
+            waiting_.reset();
+        }
+        if (spending_.is_limited()) cut_coarse();
+        is_cut_ = spending_.is_limited();
+    } else if (!spends_all() || !spending_.is_much_left(slice_triangles_)) {
+        return std::nullopt;
+    }
 
     bool is_served = current_ && serves(current_reuse_);
     if (making_ && !is_served) {
@@ -165,16 +191,16 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
             begin_key(camera, cause_now());
         } else {
             uint32_t left = frames_left();
-            if (left >= settings_.most_slices && may_rest()) return std::nullopt;
-            uint32_t slices = left == 0 ? kHurriedSlices : std::max(left, kHurriedSlices);
+            if (left >= settings_.most_slices && may_rest() && !spends_all()) return std::nullopt;
+            uint32_t slices = frames_to_make(left);
             begin_key(track_.predicted(kAimAhead * slices), is_served ? Cause::error : cause_now());
             making_->frames_to_go = slices;
         }
     }
     uint64_t wanted = slice_triangles();
     making_->cut->next(wanted, slice_);
-    slice_triangles_ = slice_.triangle_count();
-    making_->drawn_triangles += slice_triangles_;
+    slice_triangles_ += slice_.triangle_count();
+    making_->drawn_triangles += slice_.triangle_count();
     KeyWork work;
     work.slot = making_->slot;
     if (!making_->is_begun) work.begin = &slots_[making_->slot].key.camera;
@@ -193,17 +219,27 @@ void Director::key_done(DepthGrid depths) {
     ++keys_made_;
     Reuse made = reuse(making_->slot, camera_);
     // One that came out worse than what is at hand waits in the cache.
-    if (!current_ || settings_.mode == KeyMode::at_once || made.error_p99_px <= current_reuse_.error_p99_px || serves(made)) {
-        if (has_taken_over_) life_frames_ = 0.5 * (life_frames_ + double(age_frames_));
-        has_taken_over_ = true;
-        age_frames_ = 0;
-        before_ = current_;
-        current_ = making_->slot;
-        current_reuse_ = made;
-        fade_left_ = before_ ? settings_.fade_frames : 0;
-        took_over_ = making_->cause;
+    bool is_better = !current_ || settings_.mode == KeyMode::at_once || made.error_p99_px <= current_reuse_.error_p99_px;
+    if (is_better || serves(made)) {
+        // Where every triangle is spent already, the cut that belongs to this key is the next frame's.
+        if (current_ && spends_all())
+            waiting_ = making_->slot;
+        else
+            take_over(making_->slot, made, making_->cause);
     }
     making_.reset();
+}
+
+void Director::take_over(uint32_t slot, const Reuse& made, Cause cause) {
+    if (has_taken_over_) life_frames_ = 0.5 * (life_frames_ + double(age_frames_));
+    has_taken_over_ = true;
+    age_frames_ = 0;
+    is_cut_ = false;
+    before_ = current_;
+    current_ = slot;
+    current_reuse_ = made;
+    fade_left_ = before_ ? settings_.fade_frames : 0;
+    took_over_ = cause;
 }
 
 // Of the coarse cut's triangles those all of whose corners are near come first.
@@ -230,35 +266,57 @@ void Director::put_near_first() {
     novel_.near_triangle_count = kept / 3;
 }
 
+bool Director::shows_key() const {
+    return current_ && current_reuse_.lost_share() <= kMostLost;
+}
+
+// As things are now; made again, coarser, where a budget does not allow so many triangles.
+void Director::cut_coarse() {
+    constexpr int kMostTries = 4;
+    bool has_key = shows_key(), fits = false;
+    novel_.near_depth_m = 0;
+    novel_.finer_outside.reset();
+    if (has_key && current_reuse_.outside_share > 0) novel_.finer_outside = slots_[*current_].key.camera;
+    if (has_key && settings_.draws_near) {
+        double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
+        novel_.near_depth_m = track_.speed_m() * life_frames_ / (most_growth - 1);
+    }
+    for (int tries = 0; tries < kMostTries && !fits; ++tries) {
+        double coarser = spending_.coarser(has_key);
+        novel_.near_error_px = settings_.error_px * coarser;
+        novel_.low_error_px = has_key ? settings_.low_error_px * coarser : novel_.near_error_px;
+        refiner_.cut_by_pixels(
+            camera_, {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px, novel_.finer_outside},
+            low_);
+        fits = spending_.coarse_done(has_key, low_.triangle_count());
+    }
+}
+
 const Novel& Director::novel() {
     is_begun_ = false;
     ++age_frames_;
     novel_.keys.clear();
     novel_.rekeyed = took_over_;
-    novel_.near_depth_m = 0;
-    bool has_key = current_ && current_reuse_.lost_share() <= kMostLost;
-    novel_.error_p99_px = has_key ? current_reuse_.error_p99_px : settings_.low_error_px / kUnkeyedFiner;
-    novel_.error_max_px = has_key ? current_reuse_.error_max_px : settings_.low_error_px / kUnkeyedFiner;
+    // Within a budget the cut is there, unless another key has taken over since.
+    if (!is_cut_) cut_coarse();
+    is_cut_ = false;
+    put_near_first();
+    bool has_key = shows_key();
+    novel_.error_p99_px = has_key ? current_reuse_.drawn_p99_px : novel_.near_error_px;
+    novel_.error_max_px = has_key ? current_reuse_.drawn_max_px : novel_.near_error_px;
+    if (novel_.near_error_px > settings_.error_px && novel_.near_triangle_count > 0) {
+        novel_.error_p99_px = std::max(novel_.error_p99_px, novel_.near_error_px);
+        novel_.error_max_px = std::max(novel_.error_max_px, novel_.near_error_px);
+    }
     novel_.lost_share = has_key ? current_reuse_.lost_share() : 1;
-    terrain::PixelDetail detail{settings_.low_error_px, settings_.morph};
-    if (!has_key) {
-        detail.error_px /= kUnkeyedFiner;
-    } else {
-        if (settings_.draws_near) {
-            double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
-            novel_.near_depth_m = track_.speed_m() * life_frames_ / (most_growth - 1);
-            detail.near_depth_m = novel_.near_depth_m;
-            detail.near_error_px = settings_.error_px;
-        }
+    novel_.is_fine = !has_key;
+    if (has_key) {
         double fade = settings_.fade_frames > 0 ? double(fade_left_) / settings_.fade_frames : 0;
         novel_.keys.push_back({*current_, std::max(1 - fade, kFillWeight)});
         bool fills = fade_left_ > 0 || current_reuse_.lost_share() > kFillWorth;
         if (before_ && slots_[*before_].is_whole && fills) novel_.keys.push_back({*before_, std::max(fade, kFillWeight)});
         if (fade_left_ > 0) --fade_left_;
     }
-    novel_.is_fine = !has_key;
-    refiner_.cut_by_pixels(camera_, detail, low_);
-    put_near_first();
     novel_.cut = &low_;
     return novel_;
 }

@@ -7,6 +7,7 @@
 
 #include "runtime/lod_sprite/pose_track.h"
 #include "runtime/lod_sprite/reuse.h"
+#include "runtime/lod_sprite/spending.h"
 #include "runtime/terrain/refine.h"
 
 namespace overlook::lod_sprite {
@@ -29,6 +30,8 @@ struct Settings {
     double morph = 0;          // of the coarse cut (terrain::Refiner::cut_by_pixels)
     KeyMode mode = KeyMode::sliced;
     bool draws_near = true;  // what keys could not serve for their life is drawn as geometry
+    // That a frame may draw, those into keys included (of sliced keys: spending.h); 0 = as many as its errors take.
+    double triangles = 0;
 };
 
 // Why a key is made.
@@ -53,10 +56,12 @@ struct Novel {
     uint64_t near_triangle_count = 0;  // the cut's first so many lie nearer than near_depth_m all through
     std::vector<NovelUse> keys;
     double near_depth_m = 0;
-    bool is_fine = false;                       // the cut keeps error_px everywhere: no key is there to be used
-    double error_p99_px = 0, error_max_px = 0;  // bounded, over the pixels
-    double lost_share = 0;                      // predicted
-    Cause rekeyed = Cause::none;                // why the key that took over with this frame was made
+    double low_error_px = 16, near_error_px = 1;  // what the cut keeps: of what is farther, and nearer
+    std::optional<view::Camera> finer_outside;    // the cut keeps near_error_px outside what this one sees as well
+    bool is_fine = false;                         // the cut keeps error_px everywhere: no key is there to be used
+    double error_p99_px = 0, error_max_px = 0;    // bounded, over the pixels
+    double lost_share = 0;                        // predicted
+    Cause rekeyed = Cause::none;                  // why the key that took over with this frame was made
 };
 
 class Director {
@@ -64,12 +69,15 @@ class Director {
     // The refiner must outlive it.
     Director(const terrain::Refiner& refiner, const Settings& settings);
 
-    // Each frame: key_work() until it gives none, each carried out at once; then novel(). The camera's size must stay the same,
-    // or forget() be called. The pointers hold until the next call.
+    // Each frame: key_work() until it gives none, each carried out at once; then novel(). It gives one at most, unless a budget
+    // leaves triangles for the next key as well. The camera's size must stay the same, or forget() be called. The pointers hold
+    // until the next call.
     std::optional<KeyWork> key_work(const view::Camera& camera);
     void key_done(DepthGrid depths);
     const Novel& novel();
     void forget();
+    // From the next frame on, instead of Settings::triangles.
+    void set_triangles(double triangles) { spending_.set_triangles(triangles); }
 
     const Settings& settings() const { return settings_; }
     double key_cut_px() const;  // what keys promise at their own pose
@@ -95,6 +103,8 @@ class Director {
     void judge_keys();
     Reuse reuse(uint32_t slot, const view::Camera& camera) const;
     double most_error_px() const;
+    bool spends_all() const;
+    uint32_t frames_to_make(uint32_t left);
     bool serves(const Reuse& reuse) const;
     bool may_rest() const;
     uint32_t frames_left() const;
@@ -102,15 +112,20 @@ class Director {
     void begin_key(const view::Camera& pose, Cause cause);
     uint32_t slot_to_empty() const;
     uint64_t slice_triangles();
+    bool shows_key() const;
+    void cut_coarse();
     void put_near_first();
+    void take_over(uint32_t slot, const Reuse& made, Cause cause);
 
     const terrain::Refiner& refiner_;
     Settings settings_;
+    Spending spending_;
     PoseTrack track_;
     view::Camera camera_;
-    bool is_begun_ = false;  // this frame
+    bool is_begun_ = false, is_cut_ = false;  // this frame
     std::vector<Slot> slots_;
     std::optional<uint32_t> current_, before_;  // the key in use, and the one that it fades in over
+    std::optional<uint32_t> waiting_;           // a whole one that takes over with the next frame
     uint32_t fade_left_ = 0;
     std::optional<Making> making_;
     Reuse current_reuse_;

@@ -36,7 +36,7 @@ struct NovelOptions {
     double near_depth_m = 0;
     double most_slack_m = 1e9;   // no surface is farther than that from its coarse form
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
-    uint32_t look_ups = 2;       // a pixel and key, at least 1
+    uint32_t look_ups = 3;       // a pixel and key, at least 1
     bool raises = true;          // the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
     bool tests_places = true;    // a texel counts only where it is in its own place in this frame

@@ -45,6 +45,7 @@ std::vector<KnownSetting> make_settings() {
         {on_off("outlines", is.draw.raises), [](Options& o, double v) { o.draw.raises = v != 0; }},
         {on_off("slab-test", is.draw.tests_slab), [](Options& o, double v) { o.draw.tests_slab = v != 0; }},
         {on_off("place-test", is.draw.tests_places), [](Options& o, double v) { o.draw.tests_places = v != 0; }},
+        {whole("triangles", 0, 1e9, is.decide.triangles), [](Options& o, double v) { o.decide.triangles = v; }},
         {on_off("sources", is.draw.shows_sources), [](Options& o, double v) { o.draw.shows_sources = v != 0; }},
     };
 }
@@ -106,6 +107,11 @@ void FrameDrawer::change(const FrameOptions& options) {
     settle(options);
 }
 
+void FrameDrawer::set_triangles(double triangles) {
+    settings_.triangles = triangles;
+    director_->set_triangles(triangles);
+}
+
 // A director keeps what it learned of earlier keys, which a fresh one does not know.
 void FrameDrawer::forget() {
     director_.emplace(refiner_, settings_);
@@ -125,7 +131,7 @@ void FrameDrawer::decide(const view::Camera& camera) {
 Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
     if (!is_drawn_) {
         counts_ = {};
-        if (work_) {
+        for (; work_; work_ = director_->key_work(camera_)) {
             if (Result<void> drawn = draw_key(); !drawn) return tl::unexpected(drawn.error());
         }
         plan();
@@ -167,17 +173,17 @@ Result<void> FrameDrawer::draw_key() {
         Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
         if (!begun) return begun;
         is_whole_[work_->slot] = false;
-        counts_.key_pixel_count = uint64_t(work_->begin->width_px) * work_->begin->height_px * settings_.scale * settings_.scale;
+        counts_.key_pixel_count += uint64_t(work_->begin->width_px) * work_->begin->height_px * settings_.scale * settings_.scale;
     }
     surface_.take(*work_->slice);
     surface_.take_range({});
     painter_->draw_into_key(work_->slot, surface_);
-    counts_.key_triangle_count = work_->slice->triangle_count();
-    counts_.triangle_count = counts_.key_triangle_count;
-    counts_.vertex_reference_count = work_->slice->indices.size();
-    counts_.tested_count = work_->slice->tested_count;
-    counts_.draw_call_count = 1;
-    counts_.uploaded_bytes = surface_.uploaded_bytes();
+    counts_.key_triangle_count += work_->slice->triangle_count();
+    counts_.triangle_count += work_->slice->triangle_count();
+    counts_.vertex_reference_count += work_->slice->indices.size();
+    counts_.tested_count += work_->slice->tested_count;
+    ++counts_.draw_call_count;
+    counts_.uploaded_bytes += surface_.uploaded_bytes();
     if (work_->is_last) {
         director_->key_done(painter_->read_depth(work_->slot, grid_step()));
         is_whole_[work_->slot] = true;
@@ -191,6 +197,8 @@ void FrameDrawer::plan() {
     novel_.keys.clear();
     for (const NovelUse& use : plan_->keys) novel_.keys.push_back({use.slot, use.weight});
     novel_.near_depth_m = plan_->near_depth_m;
+    novel_.low_error_px = plan_->low_error_px;
+    novel_.near_error_px = plan_->near_error_px;
     counts_.triangle_count += plan_->cut->triangle_count();
     counts_.near_triangle_count = plan_->near_triangle_count;
     counts_.vertex_reference_count += plan_->cut->indices.size();

@@ -72,6 +72,8 @@ class FrameDrawer {
     void forget();
     // Goes on with other settings, but for `slots`, and forgets.
     void change(const FrameOptions& options);
+    // From the next frame on; nothing is forgotten.
+    void set_triangles(double triangles);
     // Changes the colours alone: grey where the first key is seen, yellow another, blue near geometry, red what no key shows.
     void show_sources(bool shows) { novel_.shows_sources = shows; }
 

@@ -26,6 +26,7 @@ std::vector<KnownSetting> make_settings() {
          [](Options& o, double v) { o.decide.depth.thickness = v; }},
         {{"eye-depth", 0, 1, double(is.decide.depth.space == DepthSpace::eye), true, true, true},
          [](Options& o, double v) { o.decide.depth.space = v != 0 ? DepthSpace::eye : DepthSpace::window; }},
+        {{"triangles", 0, 1e9, is.triangles, true, true}, [](Options& o, double v) { o.triangles = v; }},
         {{"strips", 0, 1, double(is.decide.strips.has_value()), true, true, true},
          [](Options& o, double v) { o.decide.strips = v != 0 ? std::optional(StripOptions{}) : std::nullopt; }},
     };
@@ -69,13 +70,18 @@ void set(FrameOptions& options, std::string_view name, double value) {
 
 FrameDrawer::FrameDrawer(const terrain::Terrain& terrain, const terrain::Refiner& refiner, terrain::Drawing& ground,
                          const FrameOptions& options)
-    : refiner_(refiner), ground_(ground), options_(options), sprite_(terrain, options.decide) {}
+    : refiner_(refiner),
+      ground_(ground),
+      options_(options),
+      controller_({options.triangles, 1, false}),
+      sprite_(terrain, options.decide) {}
 
 void FrameDrawer::decide(const view::Camera& camera) {
     camera_ = camera;
     is_kept_ = false;
     counts_ = {};
-    refiner_.cut_by_pixels(camera, options_.low_error_px, low_);
+    refiner_.cut_by_pixels(camera, options_.low_error_px * controller_.error_px(), low_);
+    controller_.frame_done(double(low_.triangle_count()));
     counts_.tested_count = low_.tested_count;
     decision_ = sprite_.decide(camera, low_);
     counts_.rekeyed = cause_of(decision_.reason);

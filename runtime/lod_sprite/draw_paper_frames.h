@@ -10,12 +10,16 @@
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/lod_sprite/draw_paper.h"
 #include "runtime/lod_sprite/paper_sprite.h"
+#include "runtime/view/error_budget.h"
 
 namespace overlook::lod_sprite::paper {
 
 struct FrameOptions {
     double error_px = 1;       // of the high cut, > 0
     double low_error_px = 16;  // of the low cut, > 0
+    // That a frame may have: the low cut's errors become larger until it fits (view::ErrorController). The paper has no budgets:
+    // keyframes are drawn whole, whatever it is. 0 = none.
+    double triangles = 0;
     Options decide;
     terrain::DrawOptions look;
 };
@@ -38,6 +42,8 @@ class FrameDrawer {
     void decide(const view::Camera& camera);
     // Fails as Drawing::make.
     Result<FrameCounts> draw(const gl::Target& target);
+    // From the next frame on.
+    void set_triangles(double triangles) { controller_.set_budget({triangles, 1, false}); }
 
     // Of the key that the novel frame drawn last is made from; none of a keyframe. And which of the novel frame's pixels are from
     // it (Drawing::draw_mask).
@@ -53,6 +59,7 @@ class FrameDrawer {
     const terrain::Refiner& refiner_;
     terrain::Drawing& ground_;
     FrameOptions options_;
+    view::ErrorController controller_;  // of how many times as large the low cut's errors are
     Sprite sprite_;
     std::optional<Drawing> drawing_;
     view::Camera camera_;

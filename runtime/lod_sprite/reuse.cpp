@@ -36,6 +36,13 @@ class Projector {
         if (at.z <= 1e-9) return {};
         return {focal_px_ * at.x / at.z, focal_px_ * at.y / at.z, at.z};
     }
+    // By how much a cell grows, besides by coming nearer, because it is seen farther from the axis: the secants' ratio (its area
+    // goes with the inverse square of the distance and the cube of the secant).
+    double stretch(double share_x, double share_y, const Seen& now) const {
+        auto secant = [](double x, double y) { return std::sqrt(1 + x * x + y * y); };
+        return secant(now.x / focal_px_, now.y / focal_px_) /
+               secant((2 * share_x - 1) * tangents_.x, (1 - 2 * share_y) * tangents_.y);
+    }
 
   private:
     const view::Camera& camera_;
@@ -107,7 +114,7 @@ double outside_share_of(const Key& key, const view::Camera& camera) {
 
 }  // namespace
 
-Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px) {
+Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px, double outside_error_px) {
     const DepthGrid& grid = key.depths;
     Projector project(key, camera);
     std::vector<Seen> seen(grid.depth_m.size());
@@ -120,7 +127,7 @@ Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error
     double frame_area = double(camera.width_px) * camera.height_px;
     double cell_area = double(key.camera.width_px) * key.camera.height_px / (double(grid.width) * grid.height);
     Reuse reuse;
-    Histogram errors, magnifications;
+    Histogram errors, drawn_errors, magnifications;
     double opened = 0;
     for (uint32_t y = 0; y + 1 < grid.height; ++y)
         for (uint32_t x = 0; x + 1 < grid.width; ++x) {
@@ -139,21 +146,27 @@ Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error
                 size_t front = size_t(nearest - depths);
                 const Seen& edge = front == 0 ? a : front == 1 ? b : front == 2 ? c : d;
                 double growth = double(*nearest) / edge.depth;
-                opened += std::clamp(area - growth * growth * cell_area, 0.0, 64 * cell_area);
+                double stretch = project.stretch((x + 0.5) / grid.width, (y + 0.5) / grid.height, edge);
+                opened += std::clamp(area - growth * growth * stretch * cell_area, 0.0, 64 * cell_area);
                 continue;
             }
             if (area <= 0) continue;  // turned away by now
             double magnification = std::sqrt(area / cell_area);
             double key_depth = (depths[0] + depths[3]) / 2.0, depth = (a.depth + d.depth) / 2;
             errors.add(key.error_px * key_depth / depth, area);
+            drawn_errors.add(key.error_px * key_depth / depth, area);
             magnifications.add(magnification / key.scale, area);
         }
     reuse.opened_share = std::min(1.0, opened / frame_area);
     reuse.outside_share = outside_share_of(key, camera);
     if (reuse.lost_share() > kRoundingShare) errors.add(fallback_error_px, reuse.lost_share() * frame_area);
+    if (reuse.opened_share > kRoundingShare) drawn_errors.add(fallback_error_px, reuse.opened_share * frame_area);
+    if (reuse.outside_share > kRoundingShare) drawn_errors.add(outside_error_px, reuse.outside_share * frame_area);
     reuse.magnification_p99 = magnifications.percentile(0.99);
     reuse.error_p99_px = errors.percentile(0.99);
     reuse.error_max_px = errors.greatest_px();
+    reuse.drawn_p99_px = drawn_errors.percentile(0.99);
+    reuse.drawn_max_px = drawn_errors.greatest_px();
     return reuse;
 }
 

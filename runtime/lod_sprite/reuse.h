@@ -22,14 +22,16 @@ struct Reuse {
     // Of the error bound of every pixel: the key's own promise at the camera's distance where the key shows it, the coarse cut's
     // where it does not.
     double error_p99_px = 0, error_max_px = 0;
+    // The same if what lies outside keeps outside_error_px.
+    double drawn_p99_px = 0, drawn_max_px = 0;
 
     double lost_share() const { return outside_share + opened_share; }
 };
 
 // Walks over the cells of the key's depth grid as the camera sees them: one over a smooth surface carries the key's error, one
-// torn open across a step in depth is lost. fallback_error_px: what is promised where the key shows nothing. What the grid is too
-// coarse to show (a mast between two of its points) is not seen here; what a frame shows of the key is tested pixel by pixel.
-// Cost O(grid).
-Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px);
+// torn open across a step in depth is lost. fallback_error_px: what is promised where the key shows nothing; outside_error_px: of
+// it, where it did not look. What the grid is too coarse to show (a mast between two of its points) is not seen here; what a
+// frame shows of the key is tested pixel by pixel. Cost O(grid).
+Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px, double outside_error_px);
 
 }  // namespace overlook::lod_sprite

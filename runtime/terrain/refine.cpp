@@ -263,12 +263,14 @@ struct SlicedCut::Impl {
     size_t done_count = 0;
     Cut::Part top;  // what ends above the pieces; goes with the first slice
     bool is_top_out = false;
+    std::vector<uint32_t> rest;  // indices that the slice before had no place for
+    std::vector<uint8_t> rest_codes;
 };
 
 SlicedCut::SlicedCut(const Refiner& refiner, const view::Camera& camera, double error_px) {
     const Refiner::Impl& from = *refiner.impl_;
-    impl_.reset(
-        new Impl{from.terrain, ScreenTest(from.terrain, from.bounds, camera, {error_px, 0, 0, error_px}), {}, 0, {}, false});
+    impl_.reset(new Impl{
+        from.terrain, ScreenTest(from.terrain, from.bounds, camera, {error_px, 0, 0, error_px}), {}, 0, {}, false, {}, {}});
     Cut top;
     impl_->pieces = top_of(from.terrain, impl_->test, ScreenTest::kAllPlanes, kSlicesWanted, top);
     impl_->top = std::move(top.parts[0]);
@@ -285,8 +287,12 @@ void SlicedCut::next(uint64_t triangles_wanted, Cut& out) {
         out.parts[0] = std::move(impl_->top);
     impl_->is_top_out = true;
     size_t part_count = 1;
-    uint64_t index_count = out.parts[0].indices.size();
-    while (!is_done() && index_count < 3 * triangles_wanted) {
+    Cut::Part& first = out.parts[0];
+    first.indices.insert(first.indices.begin(), impl_->rest.begin(), impl_->rest.end());
+    first.codes.insert(first.codes.begin(), impl_->rest_codes.begin(), impl_->rest_codes.end());
+    impl_->rest.clear(), impl_->rest_codes.clear();
+    uint64_t index_count = first.indices.size();
+    while (!is_done() && index_count / 3 < triangles_wanted) {
         std::span<const Piece> left = std::span<const Piece>(impl_->pieces).subspan(impl_->done_count);
         std::span<const Piece> group = left.first(std::min(left.size(), kPiecesAtATime));
         descend_all(impl_->terrain, impl_->test, group, part_count, out);
@@ -295,10 +301,16 @@ void SlicedCut::next(uint64_t triangles_wanted, Cut& out) {
         impl_->done_count += group.size();
     }
     join(part_count, impl_->terrain.heights.size(), out);
+    if (out.triangle_count() <= triangles_wanted) return;
+    impl_->rest.assign(out.indices.begin() + ptrdiff_t(3 * triangles_wanted), out.indices.end());
+    out.indices.resize(3 * triangles_wanted);
+    if (!out.wants_codes) return;
+    impl_->rest_codes.assign(out.codes.begin() + ptrdiff_t(triangles_wanted), out.codes.end());
+    out.codes.resize(triangles_wanted);
 }
 
 bool SlicedCut::is_done() const {
-    return impl_->is_top_out && impl_->done_count == impl_->pieces.size();
+    return impl_->is_top_out && impl_->done_count == impl_->pieces.size() && impl_->rest.empty();
 }
 
 double SlicedCut::share_done() const {

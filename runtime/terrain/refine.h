@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "formats/terrain.h"
@@ -47,6 +48,8 @@ struct PixelDetail {
     double morph = 0;
     // What comes nearer than near_depth_m (along the camera's axis) keeps near_error_px > 0, at most error_px.
     double near_depth_m = 0, near_error_px = 1;
+    // So does, if there is another camera, what that one does not see for certain: the frame's part outside its four sides.
+    std::optional<view::Camera> seen_by{};
 };
 
 // How far vertices morph (Refiner::cut_by_pixels) unless someone asks otherwise.
@@ -76,7 +79,7 @@ class Refiner {
     // morph (their vertex is not on the edge it splits): they and what they hang from are split to the last, which costs
     // triangles along the east and south rims of rasters whose sides are not 2^k * n + 1.
     void cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph = 0) const;
-    // The same with two tolerances, one for what is near.
+    // The same with two tolerances, one for what is near or not seen by another camera.
     void cut_by_pixels(const view::Camera& camera, const PixelDetail& detail, Cut& out) const;
 
     // Where a vertex of a cut is drawn, metres in the terrain's frame. index: one of the cut's.
@@ -101,11 +104,10 @@ class SlicedCut {
     SlicedCut(SlicedCut&&) noexcept;
     SlicedCut& operator=(SlicedCut&&) noexcept;
 
-    // The next slice: goes on until it holds triangles_wanted or nothing is left, and overshoots by what a few parts of the
-    // terrain hold.
+    // The next slice: triangles_wanted of them, or what is left.
     void next(uint64_t triangles_wanted, Cut& out);
     bool is_done() const;
-    // Of the parts of the terrain in view, how many have been gone through, 0..1.
+    // Of the parts of the terrain in view, how many have been gone through, 0..1; of the last one perhaps not all is out.
     double share_done() const;
 
   private:

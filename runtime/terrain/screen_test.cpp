@@ -1,9 +1,19 @@
 #include "runtime/terrain/screen_test.h"
 
+#include <array>
+
 namespace overlook::terrain {
 namespace {
 // What the arithmetic of the bound may round away, many times over.
 constexpr double kRoundingAllowance = 1 + 1e-9;
+
+// What lies within a camera's four sides is on the positive side of all of these, which go through its place.
+std::array<glm::dvec3, 4> sides_of(const view::Camera& camera) {
+    view::Axes axes = view::axes_of(camera);
+    double focal = view::focal_px(camera), tangent_x = camera.width_px / (2 * focal), tangent_y = camera.height_px / (2 * focal);
+    return {axes.forward * tangent_x + axes.right, axes.forward * tangent_x - axes.right, axes.forward * tangent_y + axes.up,
+            axes.forward * tangent_y - axes.up};
+}
 }  // namespace
 
 ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, const PixelDetail& detail)
@@ -21,14 +31,20 @@ ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const
     view::Axes axes = view::axes_of(camera);
     auto direction = [](const glm::dvec3& v) { return Direction{v.x, v.y, v.z}; };
     right_ = direction(axes.right), up_ = direction(axes.up), forward_ = direction(axes.forward);
-    double focal = view::focal_px(camera), tangent_x = camera.width_px / (2 * focal), tangent_y = camera.height_px / (2 * focal);
-    planes_[0] = direction(axes.forward * tangent_x + axes.right);
-    planes_[1] = direction(axes.forward * tangent_x - axes.right);
-    planes_[2] = direction(axes.forward * tangent_y + axes.up);
-    planes_[3] = direction(axes.forward * tangent_y - axes.up);
+    std::array<glm::dvec3, 4> sides = sides_of(camera);
+    for (size_t i = 0; i < 4; ++i) planes_[i] = direction(sides[i]);
     planes_[4] = forward_;
     plane_offsets_[4] = near_m_;
+    if (detail.seen_by) {
+        side_count_ = 4;
+        std::array<glm::dvec3, 4> others = sides_of(*detail.seen_by);
+        for (size_t i = 0; i < 4; ++i) {
+            sides_[i] = direction(others[i]);
+            side_offsets_[i] = glm::dot(others[i], detail.seen_by->position_m - camera.position_m);
+        }
+    }
 
+    double focal = view::focal_px(camera);
     axis_rise_ = std::abs(axes.forward.z);
     double corner = view::corner_secant(camera);
     corner_squared_ = corner * corner, corner_cosine_ = 1 / corner;

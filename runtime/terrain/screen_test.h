@@ -51,8 +51,8 @@ class ScreenTest {
         double share = 1;
         if (!must_split) {
             Bound bound = bound_of(box, error_m_[code]);
-            // A box holds those of what it splits into: none of them is near where it is not.
-            const Limits& limits = bound.depth_m < near_depth_m_ ? near_ : far_;
+            // A box holds those of what it splits into: none of them is near or unseen where it is not.
+            const Limits& limits = bound.depth_m < near_depth_m_ || !is_wholly_seen(box) ? near_ : far_;
             if (bound.is_within(limits.full_squared)) {
                 keep_greatest(predicted_squared, bound);
                 if (bound.is_within(limits.enter_squared)) return {Verdict::keep};
@@ -106,6 +106,12 @@ class ScreenTest {
         return true;
     }
 
+    bool is_wholly_seen(const Box& box) const {
+        for (uint32_t i = 0; i < side_count_; ++i)
+            if (sides_[i].least(box) < side_offsets_[i]) return false;
+        return true;
+    }
+
     // view::error_px_bound_vertical over the box's part in the frame, squared, as a fraction so as to need neither root nor
     // division.
     struct Bound {
@@ -149,6 +155,9 @@ class ScreenTest {
     double eye_z_;
     Direction planes_[5];
     double plane_offsets_[5] = {};
+    uint32_t side_count_ = 0;  // of what another camera sees
+    Direction sides_[4];
+    double side_offsets_[4] = {};
     Direction right_, up_, forward_;
     double near_m_, axis_rise_, corner_squared_, corner_cosine_, focal_squared_;
     // A vertex enters above the first and is at its own height from the second.

@@ -2,6 +2,7 @@
 
 #include "runtime/gl/program.h"
 #include "runtime/gl/target.h"
+#include "runtime/terrain/draw.h"
 #include "tests/gl/fixture.h"
 
 namespace overlook {
@@ -20,6 +21,31 @@ TEST(Renderer, IsMarkedSoftwareWhereLlvmpipeDraws) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     EXPECT_TRUE(context->renderer().is_software);
     EXPECT_FALSE(context->renderer().version.empty());
+}
+
+// The way by which graphics cards without Mesa are reached, as far as a processor can go it.
+TEST(Context, OfAnEglDeviceDrawsWhatTheSurfacelessOneDraws) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(any);
+    any.reset();
+    terrain::Terrain terrain = test::hilly_terrain(65);
+    view::Camera camera = test::from_south(terrain, 96, 64);
+    ImageRgb8 pictures[2];
+    gl::Renderer renderers[2];
+    for (int i = 0; i < 2; ++i) {
+        Result<gl::Context> context = gl::Context::headless(i == 0 ? gl::Platform::surfaceless : gl::Platform::device);
+        ASSERT_TRUE(context) << context.error().message;
+        renderers[i] = context->renderer();
+        Result<terrain::Drawing> drawing = terrain::Drawing::make(terrain);
+        ASSERT_TRUE(drawing) << drawing.error().message;
+        Result<gl::Target> target = gl::Target::make(96, 64, 4);
+        ASSERT_TRUE(target) << target.error().message;
+        drawing->draw(*target, test::everything(terrain), camera, {});
+        pictures[i] = target->read();
+    }
+    EXPECT_TRUE(renderers[1].is_software);
+    EXPECT_EQ(renderers[0].name, renderers[1].name);
+    EXPECT_EQ(pictures[0].pixels, pictures[1].pixels);
+    EXPECT_NE(test::pixel(pictures[1], 48, 4), test::pixel(pictures[1], 48, 60));
 }
 
 TEST(ErrorCounter, CountsWhatOpenGLReports) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "tests/formats/schema_faults.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
+#include "tools/measure/stability/kept.h"
 #include "tools/measure/stability/report.h"
 
 namespace overlook::measure {
@@ -145,6 +147,80 @@ TEST(StabilityRun, FallbacksToCoarserHeightsAreSaid) {
 
     for (size_t code = 0; code < terrain::kMustSplit; ++code) terrain.error_m[code] -= 20;  // and one that keeps it to itself
     EXPECT_EQ(found(run_climb, stage, {}, hills.flight, "terrain@samples=1").figures.at("fallbacks_unsaid"), 3);
+}
+
+TEST(StabilityRun, PlacesShownFromKeysAreMeasured) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Stage stage = hills.stage(context->renderer(), 16);
+    Finding right = found(run_slopes, stage, {}, hills.flight, "lod-sprite@error-px=0.5@key-error-px=0.5");
+    double right_px = right.figures.at("shear_error_px");
+    EXPECT_GT(right_px, 0);
+    EXPECT_LE(right_px, 1.5) << right.sentence;
+    ASSERT_TRUE(right.worst);
+    Finding bent = found(run_slopes, stage, {}, hills.flight,
+                         "lod-sprite@error-px=0.5@key-error-px=2@low-error-px=32@place-test=0@slab-test=0@look-ups=1");
+    EXPECT_GT(bent.figures.at("shear_error_px"), 1.5) << bent.sentence;
+}
+
+TEST(StabilityRun, BudgetsOfMethodsWithKeysAreHeldToAllThatTheyDraw) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Case each;
+    each.settings.budget_share = 0.5;
+    Stage stage = hills.stage(context->renderer(), 0);
+    Finding kept = found(run_halved_budget, stage, each, hills.flight, "lod-sprite@error-px=0.3@key-error-px=0.3");
+    EXPECT_LE(kept.figures.at("budget_miss_share"), 0.05) << kept.sentence;
+    EXPECT_LE(kept.figures.at("frames_until_budget_met"), 20) << kept.sentence;
+    // Keys of the paper are drawn at once, whatever the budget.
+    Finding broken = found(run_halved_budget, stage, each, hills.flight, "lod-sprite:paper@error-px=0.3@key-error-px=0.3");
+    EXPECT_GT(broken.figures.at("budget_miss_share"), 0.05) << broken.sentence;
+}
+
+TEST(StabilityRun, CamerasWithKeysOfTheirOwnSeeWhatTheySeeAlone) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    Case each;
+    each.settings.cameras = 2;
+    Finding finding = found(run_cameras, hills.stage(context->renderer(), 4), each, hills.flight, "lod-sprite");
+    EXPECT_EQ(finding.figures.at("cameras_that_differ"), 0);
+    EXPECT_EQ(finding.frames, 2 * 24u);
+}
+
+TEST(StabilitySuite, GoesOnWhereItWasBrokenOff) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills;
+    ScratchFolder folder;
+    Stage stage = hills.stage(context->renderer(), 2);
+    stage.kept_folder = folder.path();
+    stage.program_hash = "this program";
+    Case each{"S03", "yaw", "unused", folder / "flight.json", {}, {}, {"terrain"}, {"terrain"}};
+    each.gates.push_back({"hole_pixels", 0, "all", -1});
+    ASSERT_TRUE(write_file(each.flight, std::string_view(scene::json_from_flight(hills.flight))));
+    std::vector<MethodSpec> specs = *specs_from({"terrain@samples=1"}, {});
+    auto run = [&] { return run_suite(stage, {each}, specs, [](double) {}); };
+    Result<SuiteResult> first = run(), again = run();
+    ASSERT_TRUE(first && again);
+    const Finding &a = first->verdicts[0].finding, &b = again->verdicts[0].finding;
+    EXPECT_EQ(a.sentence, b.sentence);
+    EXPECT_EQ(a.figures, b.figures);
+    EXPECT_EQ(a.worst->test.pixels, b.worst->test.pixels);
+    EXPECT_EQ(folder.names().size(), 2u);  // the flight, and what was found
+
+    // What was kept is taken, not found anew; what was damaged is not.
+    std::string kept = folder / name_of_findings(stage, each, *scene::read_flight(each.flight), specs);
+    std::vector<Finding> other = {a};
+    other[0].figures["hole_pixels"] = std::numeric_limits<double>::infinity();
+    ASSERT_TRUE(keep_findings(kept, other));
+    EXPECT_TRUE(std::isinf(run()->verdicts[0].gates[0].value));
+    std::string bytes = text_of_file(kept);
+    bytes[bytes.size() / 2] ^= 1;
+    ASSERT_TRUE(write_file(kept, std::string_view(bytes)));
+    EXPECT_EQ(run()->verdicts[0].gates[0].value, 0);
+
+    stage.program_hash = "another";
+    EXPECT_EQ(run()->verdicts[0].finding.sentence, a.sentence);
+    EXPECT_EQ(folder.names().size(), 3u);
 }
 
 TEST(StabilitySuite, HoldsItsGatesAgainstTheBaselineThatPops) {

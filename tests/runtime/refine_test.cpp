@@ -81,7 +81,8 @@ TEST(SlicedCut, HoldsWhatTheWholeCutHolds) {
         double share_before = 0;
         while (!sliced.is_done()) {
             sliced.next(100, slice);
-            EXPECT_TRUE(sliced.is_done() || slice.triangle_count() >= 100);
+            EXPECT_LE(slice.triangle_count(), 100u);
+            EXPECT_TRUE(sliced.is_done() || slice.triangle_count() == 100);
             EXPECT_GE(sliced.share_done(), share_before);
             share_before = sliced.share_done();
             triangles.merge(triangles_of(slice));
@@ -93,6 +94,34 @@ TEST(SlicedCut, HoldsWhatTheWholeCutHolds) {
             EXPECT_GT(slices, 3u);
         }
     }
+}
+
+// Whatever of a frame another camera does not see keeps the finer error, crack-free; what it sees does not.
+TEST(PixelCut, IsFinerOutsideWhatAnotherCameraSees) {
+    Terrain terrain = baked(test::make_hills(129, 129, 3, 0.02));
+    Refiner refiner(terrain);
+    Cut coarse, fine, both;
+    uint32_t between = 0;
+    for (uint64_t seed = 0; seed < 40; ++seed) {
+        view::Camera camera = random_camera(terrain, seed), other = camera;
+        double error_px = random_tolerance_px(seed);
+        PixelDetail detail{16 * error_px, 0, 0, error_px, camera};
+        refiner.cut_by_pixels(camera, 16 * error_px, coarse);
+        refiner.cut_by_pixels(camera, error_px, fine);
+
+        detail.seen_by->heading_deg += 180;  // sees nothing of it
+        detail.seen_by->pitch_deg = -detail.seen_by->pitch_deg;
+        refiner.cut_by_pixels(camera, detail, both);
+        EXPECT_EQ(triangles_of(both), triangles_of(fine)) << seed;
+
+        other.heading_deg += 0.4 * camera.fov_y_deg;
+        detail.seen_by = other;
+        refiner.cut_by_pixels(camera, detail, both);
+        EXPECT_EQ(count_t_junctions(terrain, both), 0u) << seed;
+        EXPECT_GE(both.triangle_count(), coarse.triangle_count());
+        between += both.triangle_count() > coarse.triangle_count() && both.triangle_count() < fine.triangle_count();
+    }
+    EXPECT_GT(between, 5u);
 }
 
 TEST(PixelCut, HasNoCrackForAnyCamera) {

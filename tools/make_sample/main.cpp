@@ -4,6 +4,7 @@
 #include "runtime/command/command.h"
 #include "tools/make_sample/sample_dem.h"
 #include "tools/make_sample/sample_lod_sprite.h"
+#include "tools/make_sample/sample_slopes.h"
 
 namespace {
 
@@ -41,6 +42,14 @@ int make_lod_sprite(const sample::LodSpriteOptions& options, const std::string& 
     return int(Exit::done);
 }
 
+int make_slopes(const std::string& folder, const command::Common& common) {
+    Result<std::vector<std::string>> files = sample::make_slopes(folder);
+    if (!files) return command::fail("make-sample slopes", files.error());
+    for (const std::string& file : *files) command::note(common, "wrote " + file);
+    if (common.json) fmt::print("{}\n", nlohmann::ordered_json({{"files", *files}}).dump(2));
+    return int(Exit::done);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,7 +74,12 @@ int main(int argc, char** argv) {
     lod_sprite->add_option("--size", lod_sprite_options.side, "Samples a side")->capture_default_str();
     command::add_common(*lod_sprite, common, command::Uses::seed);
 
+    CLI::App* slopes = app.add_subcommand("slopes", "Ridges whose sides rise at 40, 60 and 75 degrees: dem.tif, scene.json");
+    slopes->add_option("-o,--output", folder, "Folder to write into")->required();
+    command::add_common(*slopes, common);
+
     return command::run(app, common, argc, argv, [&] {
+        if (slopes->parsed()) return make_slopes(folder, common);
         if (lod_sprite->parsed()) {
             lod_sprite_options.seed = common.seed;
             return make_lod_sprite(lod_sprite_options, folder, common);

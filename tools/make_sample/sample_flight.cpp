@@ -196,12 +196,7 @@ std::vector<std::pair<std::string, Flight>> suite_flights(const Landscape& lands
                                                       {2, 0.5, 0.53, 1500, 30, -30},
                                                       {5, 0.5, 0.50, 12000, 30, -65},
                                                       {length_s, 0.5, 0.48, 40000, 30, -80}});
-    Flight steep = map.flight(Interpolation::smooth, {{0, 0.62, 0.10, 150, 80, -15},
-                                                      {2.5, 0.67, 0.13, 150, 110, -20},
-                                                      {5, 0.71, 0.19, 150, 140, -20},
-                                                      {length_s, 0.73, 0.25, 150, 170, -15}});
     lift(climb, map, clear_m);
-    lift(steep, map, clear_m);
     Flight four = opposites(map);
     lift(four, map, clear_m);
     return {
@@ -213,7 +208,6 @@ std::vector<std::pair<std::string, Flight>> suite_flights(const Landscape& lands
         {"s06", skim(map)},
         {"s07", straight(map, length_s, 64, 45, {0, 0.35, 0.78, 30, 45, 0}, 30)},
         {"s08", climb},
-        {"s11", steep},
         {"s18", four},
     };
 }

@@ -19,9 +19,9 @@ scene::Scene sample_scene();
 // kLeastClearance_m over the highest of the samples round about.
 scene::Flight overview_flight(const Landscape& landscape, double cell_size_m);
 
-// The flights of the stability suite, by name: s01 .. s11 (those of its cases that another's flight serves have none). At least
-// kLeastClearance_m over the ground, but 30 m in s07 (grazing), and in s06 (skimming) 0.6 m over a row of samples, which is 1.2
-// times the player's near plane.
+// The flights of the stability suite, by name: s01 .. s18 (those of its cases that another's flight serves have none, and S11
+// flies elsewhere). At least kLeastClearance_m over the ground, but 30 m in s07 (grazing), and in s06 (skimming) 0.6 m over a row
+// of samples, which is 1.2 times the player's near plane.
 std::vector<std::pair<std::string, scene::Flight>> suite_flights(const Landscape& landscape, double cell_size_m);
 
 // Height of the ground at x, y: the highest of the four samples round about, of the nearest ones outside.

@@ -26,6 +26,11 @@ class LodSprite : public Method {
 
     void decide(const view::Camera& camera, uint32_t) override { frames_->decide(camera); }
 
+    bool set_triangles(double triangles) override {
+        frames_->set_triangles(triangles);
+        return true;
+    }
+
     Counters draw(const gl::Target& target) override {
         Result<lod_sprite::FrameCounts> drawn = frames_->draw(target);
         assert(drawn);

@@ -24,6 +24,11 @@ class LodSpritePaper : public Method {
 
     void decide(const view::Camera& camera, uint32_t) override { frames_.decide(camera); }
 
+    bool set_triangles(double triangles) override {
+        frames_.set_triangles(triangles);
+        return true;
+    }
+
     // A keyframe is a frame of its own here: none of its triangles is drawn besides the picture's.
     Counters draw(const gl::Target& target) override {
         Result<FrameCounts> drawn = frames_.draw(target);
@@ -40,7 +45,6 @@ class LodSpritePaper : public Method {
         return counters;
     }
 
-    // Of no keyframe, which is drawn in full.
     // Of no keyframe, which is drawn in full.
     std::optional<Sources> sources(const gl::Target& middle) override {
         std::optional<view::Camera> key = frames_.key_camera();

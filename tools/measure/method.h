@@ -47,6 +47,11 @@ class Method {
     virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
     // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.
     virtual Counters draw(const gl::Target& target) = 0;
+    // From the next frame on, so many triangles in all may be drawn a frame. Returns whether the method keeps budgets.
+    virtual bool set_triangles(double triangles) {
+        static_cast<void>(triangles);
+        return false;
+    }
     // Of the frame decided last, measured against the source; nothing of a method that promises nothing. Takes its time, which
     // is nobody's frame's; the pictures after it are the same as without it.
     virtual std::optional<Promises> promises() { return std::nullopt; }

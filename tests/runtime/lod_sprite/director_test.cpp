@@ -54,7 +54,7 @@ class Flight {
         Frame frame;
         frame.camera = camera;
         while (std::optional<KeyWork> work = director_.key_work(camera)) {
-            EXPECT_FALSE(frame.had_work) << "two slices in a frame";
+            EXPECT_FALSE(frame.had_work && !frame.ended_key) << "two slices of a key in a frame";
             carry_out(*work, frame);
         }
         EXPECT_EQ(director_.key_triangles(), frame.slice_triangles);
@@ -91,7 +91,7 @@ class Flight {
             drawn.push_back({*work.begin, {}});
             ended.push_back(false);
         }
-        frame.slice_triangles = work.slice->triangle_count();
+        frame.slice_triangles += work.slice->triangle_count();
         Triangles& into = drawn[place_of_.at(work.slot)].second;
         for (size_t i = 0; i < work.slice->indices.size(); i += 3) {
             std::array<uint32_t, 3> t{work.slice->indices[i], work.slice->indices[i + 1], work.slice->indices[i + 2]};
@@ -131,17 +131,17 @@ int frames_without_key(Flight& flight, view::Camera camera, const glm::dvec3& st
     return 100;
 }
 
-TEST(Director, DrawsFinerWhileThereIsNoKey) {
+TEST(Director, KeepsTheErrorAskedWhileThereIsNoKey) {
     Settings settings;
     settings.error_px = 0.1;  // a key of more triangles than a slice
     Flight flight(settings);
     view::Camera camera = start_pose();
     terrain::Cut unkeyed;
-    ground().refiner.cut_by_pixels(camera, settings.low_error_px / 4, unkeyed, settings.morph);
+    ground().refiner.cut_by_pixels(camera, settings.error_px, unkeyed, settings.morph);
     Frame first = flight.step(camera);
     ASSERT_TRUE(first.novel.is_fine);
     EXPECT_EQ(first.indices, unkeyed.indices);
-    EXPECT_EQ(first.novel.error_p99_px, settings.low_error_px / 4);
+    EXPECT_EQ(first.novel.error_p99_px, settings.error_px);
     EXPECT_EQ(first.novel.near_triangle_count, 0u);
 }
 
@@ -311,8 +311,9 @@ TEST(Director, PutsNearTrianglesFirst) {
         Frame frame = flight.step(low);
         if (frame.novel.is_fine) continue;
         terrain::Cut cut;
-        ground().refiner.cut_by_pixels(frame.camera,
-                                       {settings.low_error_px, settings.morph, frame.novel.near_depth_m, settings.error_px}, cut);
+        ground().refiner.cut_by_pixels(
+            frame.camera,
+            {settings.low_error_px, settings.morph, frame.novel.near_depth_m, settings.error_px, frame.novel.finer_outside}, cut);
         ASSERT_EQ(triangles_of(frame.indices), triangles_of(cut.indices));
         view::Axes axes = view::axes_of(frame.camera);
         for (size_t i = 0; i < frame.indices.size(); i += 3) {
@@ -328,6 +329,66 @@ TEST(Director, PutsNearTrianglesFirst) {
     }
     EXPECT_GT(near, 100u);
     EXPECT_GT(far, 100u);
+}
+
+// What no key looked at is drawn as fine as asked, at once: a camera that turns never waits for a key.
+TEST(Director, KeepsTheErrorAskedWhereNoKeyLooked) {
+    Flight flight;
+    flight.fly(start_pose(), {0, 2, 0}, 0, 40);
+    view::Camera camera = start_pose();
+    camera.position_m.y += 80;
+    uint32_t turned = 0;
+    for (int frame = 0; frame < 12; ++frame) {
+        camera.heading_deg += 2.8;
+        Frame shown = flight.step(camera);
+        EXPECT_LE(shown.novel.error_p99_px, 1 + 1e-6) << frame;
+        if (shown.novel.is_fine || !shown.novel.finer_outside) continue;
+        ++turned;
+        terrain::Cut coarse;
+        ground().refiner.cut_by_pixels(camera, shown.novel.low_error_px, coarse);
+        EXPECT_GT(shown.indices.size(), coarse.indices.size());
+    }
+    EXPECT_GE(turned, 3u);
+}
+
+uint64_t triangles_in(const Frame& frame) {
+    return frame.slice_triangles + frame.indices.size() / 3;
+}
+
+// Of a steady flight, frames 60 to 160.
+std::vector<Frame> cruise(double triangles, double speed = 1) {
+    Settings settings;
+    settings.error_px = settings.key_error_px = 0.5;
+    settings.triangles = triangles;
+    Flight flight(settings);
+    std::vector<Frame> frames = flight.fly(start_pose(), glm::dvec3(1, 4, 0) * speed, 0.1 * speed, 160);
+    frames.erase(frames.begin(), frames.begin() + 60);
+    return frames;
+}
+
+TEST(Director, SpendsABudgetThatBindsAndNoMore) {
+    std::vector<Frame> free = cruise(0);
+    uint64_t sum = 0;
+    for (const Frame& frame : free) sum += triangles_in(frame);
+    double mean = double(sum) / double(free.size());
+    for (double share : {0.7, 0.4}) {
+        uint64_t keys = 0;
+        for (const Frame& frame : cruise(share * mean)) {
+            EXPECT_LE(double(triangles_in(frame)), 1.05 * share * mean);
+            EXPECT_GE(double(triangles_in(frame)), 0.95 * share * mean);
+            keys += frame.ended_key;
+        }
+        EXPECT_GE(keys, 1u) << share;
+    }
+}
+
+TEST(Director, LeavesABudgetThatDoesNotBindAlone) {
+    std::vector<Frame> free = cruise(0), rich = cruise(1e6);
+    for (size_t i = 0; i < free.size(); ++i) ASSERT_EQ(triangles_in(free[i]), triangles_in(rich[i])) << i;
+}
+
+TEST(Director, SpendsNothingOnFreshKeysForACameraThatStandsStill) {
+    EXPECT_EQ(cruise(500, 0).back().slice_triangles, 0u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "runtime/view/error_budget.h"
 #include "tools/measure/honesty/terrain_honesty.h"
@@ -114,6 +115,54 @@ Budgeted judge_budget(const std::vector<double>& costs, size_t middle, double bu
     return found;
 }
 
+constexpr double kStarted = 0.5;  // of the frames before the middle: what starting costs is over by then
+
+// What the frames of a flight cost, all that is drawn into pictures to be shown again included. Within `budget` triangles (0 = as
+// many as they take), and within `share` of it from the middle frame on.
+Result<std::vector<double>> costs_of(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
+                                     double budget, double share) {
+    Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
+    if (!target) return tl::unexpected(target.error());
+    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    if (!method->set_triangles(budget)) return impossible("{}: keeps no budget of triangles", label_of(spec));
+    std::vector<double> costs;
+    for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+        if (frame == cameras.size() / 2) method->set_triangles(share * budget);
+        method->decide(cameras[frame], frame);
+        costs.push_back(double(method->draw(*target).triangle_count));
+    }
+    return costs;
+}
+
+// The budget before it is halved is so much of what a frame takes on the average without one.
+Result<Finding> halved_budget_of_keys(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
+                                      double share) {
+    size_t middle = cameras.size() / 2;
+    std::vector<view::Camera> first_half(cameras.begin(), cameras.begin() + ptrdiff_t(middle));
+    Result<std::vector<double>> free = costs_of(stage, spec, first_half, 0, 1);
+    if (!free) return tl::unexpected(free.error());
+    auto started = free->begin() + ptrdiff_t(kStarted * double(middle));
+    double mean = std::accumulate(started, free->end(), 0.0) / double(free->end() - started), budget = kFirstBudget * mean;
+    Result<std::vector<double>> costs = costs_of(stage, spec, cameras, budget, share);
+    if (!costs) return tl::unexpected(costs.error());
+    Budgeted found = judge_budget(*costs, middle, share * budget);
+    Finding finding;
+    finding.figures["budget_miss_share"] = found.miss_share;
+    finding.figures["frames_until_budget_met"] = found.frames_until_met;
+    finding.figures["changes_of_sign"] = found.changes_of_sign;
+    finding.frames = uint32_t(cameras.size());
+    auto [least, most] = std::minmax_element(costs->begin() + ptrdiff_t(middle + kSettled), costs->end());
+    finding.sentence = fmt::format(
+        "A frame takes {:.0f} triangles without a budget, those drawn into keys included. {:.0f} allowed from frame {} on: "
+        "{:.0f} "
+        "to {:.0f} drawn, {} frames after that.",
+        mean, share * budget, middle, *least, *most, kSettled);
+    Result<Shot> shot = shot_of(stage, spec, cameras.back(), uint32_t(cameras.size() - 1));
+    if (!shot) return tl::unexpected(shot.error());
+    finding.worst = std::move(*shot);
+    return finding;
+}
+
 }  // namespace
 
 Result<std::vector<Finding>> run_jitter(Stage& stage, const Case&, const scene::Flight& flight,
@@ -150,6 +199,12 @@ Result<std::vector<Finding>> run_slopes(Stage& stage, const Case&, const scene::
     std::vector<view::Camera> cameras = cameras_of(few, flight, Pick::spread);
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
+        if (is_image(spec)) {
+            Result<Finding> shear = shear_of(stage, spec, flight);
+            if (!shear) return tl::unexpected(shear.error());
+            findings.push_back(std::move(*shear));
+            continue;
+        }
         Finding finding;
         HonestyTally tally;
         uint32_t worst_frame = 0;
@@ -183,6 +238,12 @@ Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, c
     size_t middle = cameras.size() / 2;
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
+        if (is_image(spec)) {
+            Result<Finding> finding = halved_budget_of_keys(stage, spec, cameras, each.settings.budget_share);
+            if (!finding) return tl::unexpected(finding.error());
+            findings.push_back(std::move(*finding));
+            continue;
+        }
         terrain::Cut cut;
         stage.world.refiner->cut_by_pixels(cameras[0], setting(spec, "error-px"), cut, morph_of(spec));
         view::ErrorBudget budget{kFirstBudget * double(cut.triangle_count()), setting(spec, "error-px"), false};

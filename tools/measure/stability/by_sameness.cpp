@@ -41,14 +41,16 @@ std::string hash_of(const ImageRgb8& image) {
     return content_hash(std::as_bytes(std::span(image.pixels)));
 }
 
-// The flight in equally long parts, of each at most `most` frames (0 = all), spread over it.
-std::vector<std::vector<view::Camera>> legs_of(const std::vector<view::Camera>& cameras, uint32_t count, uint32_t most) {
+// The flight in equally long parts, of each at most `most` frames (0 = all): the first ones, or spread over it.
+std::vector<std::vector<view::Camera>> legs_of(const std::vector<view::Camera>& cameras, uint32_t count, uint32_t most,
+                                               Pick pick) {
     std::vector<std::vector<view::Camera>> legs;
     uint32_t length = uint32_t(cameras.size()) / count;
     for (uint32_t leg = 0; leg < count; ++leg) {
         legs.emplace_back();
-        for (uint32_t frame : spread_frames(length, most == 0 ? length : most))
-            legs.back().push_back(cameras[leg * length + frame]);
+        uint32_t frames = most == 0 ? length : std::min(most, length);
+        std::vector<uint32_t> taken = spread_frames(pick == Pick::in_row ? frames : length, frames);
+        for (uint32_t frame : taken) legs.back().push_back(cameras[leg * length + frame]);
     }
     return legs;
 }
@@ -95,8 +97,11 @@ Result<Together> fly_together(const std::function<std::unique_ptr<Method>()>& ma
 
 Result<std::vector<Finding>> run_cameras(Stage& stage, const Case& each, const scene::Flight& flight,
                                          std::span<const MethodSpec> specs) {
-    uint32_t count = each.settings.cameras, most = stage.frames == 0 ? 0 : std::max(2u, stage.frames / count);
-    std::vector<std::vector<view::Camera>> legs = legs_of(cameras_of(stage, flight, Pick::all), count, most);
+    constexpr uint32_t kFewest = 2, kFewestWithKeys = 24;  // frames: so many until keys are there and take over
+    uint32_t count = each.settings.cameras, fewest = is_image(specs.front()) ? kFewestWithKeys : kFewest;
+    uint32_t most = stage.frames == 0 ? 0 : std::max(fewest, stage.frames / count);
+    std::vector<std::vector<view::Camera>> legs =
+        legs_of(cameras_of(stage, flight, Pick::all), count, most, pick_of(specs, Pick::spread));
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
         Result<Together> together = fly_together([&] { return make_method(spec, stage.world); }, legs, samples_of(spec));

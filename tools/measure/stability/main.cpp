@@ -4,10 +4,12 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "runtime/command/command.h"
 #include "tools/measure/options.h"
 #include "tools/measure/page_text.h"
+#include "tools/measure/stability/kept.h"
 #include "tools/measure/stability/report.h"
 
 namespace overlook::measure {
@@ -24,7 +26,7 @@ struct SuiteOptions {
 void add_suite_options(CLI::App& app, SuiteOptions& options) {
     app.add_option("cases", options.folder, "Folder of the cases, s01.json to s20.json")->required()->type_name("FOLDER");
     app.add_option("--scene", options.scene,
-                   "What is flown over: a scene (.json) or a baked terrain (.ovl); default the first case's")
+                   "What is flown over: a scene (.json) or a baked terrain (.ovl); default each case's own")
         ->type_name("SCENE");
     app.add_option("--case", options.cases, "S01 ...: these cases alone; may be repeated")->type_name("CASE");
     app.add_option("--method", options.methods, "As of measure; may be repeated; default terrain and terrain:hard")
@@ -57,7 +59,7 @@ Result<std::vector<Case>> chosen_cases(const SuiteOptions& options) {
     return chosen;
 }
 
-// All ready cases fly over one scene: the first one's, unless another is named.
+// Of the report: the first case's, unless another is named.
 Result<std::string> scene_path(const SuiteOptions& options, const std::vector<Case>& cases) {
     if (!options.scene.empty()) return options.scene;
     for (const Case& each : cases) {
@@ -88,19 +90,35 @@ Result<bool> run_all(const SuiteOptions& options, const std::vector<std::string>
     if (!scene) return tl::unexpected(scene.error());
     Result<World> read = read_world(*scene);
     if (!read) return tl::unexpected(read.error());
-    std::string cache_folder = options.out + "/cache";
-    std::error_code problem;
-    std::filesystem::create_directories(cache_folder, problem);
-    if (problem) return cannot_write("{}: cannot make the folder: {}", cache_folder, problem.message());
+    std::string cache_folder = options.out + "/cache", kept_folder = options.out + "/kept";
+    for (const std::string& folder : {cache_folder, kept_folder}) {
+        std::error_code problem;
+        std::filesystem::create_directories(folder, problem);
+        if (problem) return cannot_write("{}: cannot make the folder: {}", folder, problem.message());
+    }
 
     Result<gl::Context> context = gl::Context::headless();
     if (!context) return tl::unexpected(context.error());
     gl::ErrorCounter errors;
-    World world = std::move(*read);  // goes before the context
+    World world = std::move(*read);  // goes before the context, as the others do
     if (Result<void> uploaded = upload(world); !uploaded) return tl::unexpected(uploaded.error());
-    Stage stage{world, context->renderer(), width_px, height_px, options.frames, options.asked_px, cache_folder};
+    std::map<std::string, World> others;
+    auto world_of = [&](const Case& each) -> Result<World*> {
+        if (!options.scene.empty() || each.scene == *scene) return &world;
+        auto known = others.find(each.scene);
+        if (known != others.end()) return &known->second;
+        Result<World> other = read_world(each.scene);
+        if (!other) return tl::unexpected(other.error());
+        if (Result<void> uploaded = upload(*other); !uploaded) return tl::unexpected(uploaded.error());
+        return &others.emplace(each.scene, std::move(*other)).first->second;
+    };
+    Result<std::string> program = program_hash();
+    if (!program) return tl::unexpected(program.error());
+    Stage stage{world,        context->renderer(), width_px, height_px, options.frames, options.asked_px,
+                cache_folder, kept_folder,         *program};
     command::Progress progress(common, "running the suite");
-    Result<SuiteResult> result = run_suite(stage, *cases, *specs, [&](double share) { progress.set(share); });
+    Result<SuiteResult> result = run_suite(
+        stage, *cases, *specs, [&](double share) { progress.set(share); }, world_of);
     if (!result) return tl::unexpected(result.error());
     if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
 

@@ -18,9 +18,11 @@ struct Stage {
     World& world;  // uploaded
     gl::Renderer renderer;
     uint32_t width_px = 320, height_px = 240;
-    uint32_t frames = 0;       // at most so many of a flight where pictures are judged; 0 = all
-    double asked_px = 1;       // the error that was asked for, whatever a method makes of it
-    std::string cache_folder;  // for reference frames; empty = none
+    uint32_t frames = 0;         // at most so many of a flight where pictures are judged; 0 = all
+    double asked_px = 1;         // the error that was asked for, whatever a method makes of it
+    std::string cache_folder;    // for reference frames; empty = none
+    std::string kept_folder{};   // for findings, so that a run that was broken off goes on; empty = none
+    std::string program_hash{};  // of what finds them
 };
 
 // A frame beside what it should have been.
@@ -90,6 +92,10 @@ struct Displacement {
     double measured_px = 0, predicted_px = 0;
 };
 Displacement displacement_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, double unsure_m = 0);
+
+// S11 of a method that shows pictures again: flown twice over the same ground painted with waves, so that each pixel tells which
+// place it shows; held against where full geometry has that place. Outlines are left out. Fails with Exit::impossible.
+Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flight& flight);
 
 // S18: cameras that fly at once, each with a method of its own from `make`, all over what these share. legs: [cameras][frames] >=
 // 1, equally long. Every frame is decided for all cameras, then drawn for all, beginning with another one each time; then each

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/measure/stability/kept.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -38,7 +40,21 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Result<void> run_case(Stage& stage, const Case& each, std::span<const MethodSpec> specs, SuiteResult& result) {
+// Found in an earlier run, or now.
+Result<std::vector<Finding>> findings_of(Stage& stage, const Case& each, CaseRunner run, std::span<const MethodSpec> specs) {
+    Result<scene::Flight> flight = scene::read_flight(each.flight);
+    if (!flight) return tl::unexpected(flight.error());
+    if (stage.kept_folder.empty()) return run(stage, each, *flight, specs);
+    std::string path = stage.kept_folder + "/" + name_of_findings(stage, each, *flight, specs);
+    if (std::optional<std::vector<Finding>> kept = read_findings(path, specs.size())) return std::move(*kept);
+    Result<std::vector<Finding>> findings = run(stage, each, *flight, specs);
+    if (!findings) return findings;
+    if (Result<void> written = keep_findings(path, *findings); !written) return tl::unexpected(written.error());
+    return findings;
+}
+
+Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const MethodSpec> specs, SuiteResult& result,
+                      const WorldOf& world_of) {
     CaseRunner run = runner_of(each.number);
     std::vector<MethodSpec> geometry, image;
     for (const MethodSpec& spec : specs) {
@@ -47,11 +63,21 @@ Result<void> run_case(Stage& stage, const Case& each, std::span<const MethodSpec
     for (const std::string& method : each.methods) {
         if (run == nullptr || !has(each.runs, method)) result.owed.push_back({each.number, each.what, method});
     }
+    if (geometry.empty() && image.empty()) return {};
+    Result<World*> world = world_of ? world_of(each) : &suite_stage.world;
+    if (!world) return tl::unexpected(world.error());
+    Stage stage{**world,
+                suite_stage.renderer,
+                suite_stage.width_px,
+                suite_stage.height_px,
+                suite_stage.frames,
+                suite_stage.asked_px,
+                suite_stage.cache_folder,
+                suite_stage.kept_folder,
+                suite_stage.program_hash};
     for (const std::vector<MethodSpec>& concerned : {geometry, image}) {
         if (concerned.empty()) continue;
-        Result<scene::Flight> flight = scene::read_flight(each.flight);
-        if (!flight) return tl::unexpected(flight.error());
-        Result<std::vector<Finding>> findings = run(stage, each, *flight, concerned);
+        Result<std::vector<Finding>> findings = findings_of(stage, each, run, concerned);
         if (!findings) return tl::unexpected(findings.error());
         for (size_t i = 0; i < concerned.size(); ++i) {
             Finding& finding = (*findings)[i];
@@ -78,10 +104,10 @@ bool is_kept(const SuiteResult& result) {
 }
 
 Result<SuiteResult> run_suite(Stage& stage, const std::vector<Case>& cases, std::span<const MethodSpec> specs,
-                              const std::function<void(double)>& done) {
+                              const std::function<void(double)>& done, const WorldOf& world_of) {
     SuiteResult result;
     for (size_t i = 0; i < cases.size(); ++i) {
-        if (Result<void> ran = run_case(stage, cases[i], specs, result); !ran) return tl::unexpected(ran.error());
+        if (Result<void> ran = run_case(stage, cases[i], specs, result, world_of); !ran) return tl::unexpected(ran.error());
         done(double(i + 1) / double(cases.size()));
     }
     return result;

@@ -35,11 +35,15 @@ struct SuiteResult {
     std::vector<Owed> owed;
 };
 
-// Runs the cases that are ready for the specs' methods; the rest is owed. Each case flies its own flight over the stage's world.
+// The world of a case's scene, uploaded; outlives the run.
+using WorldOf = std::function<Result<World*>(const Case&)>;
+
+// Runs the cases that are ready for the specs' methods; the rest is owed. Each case flies its own flight over the stage's world,
+// or over that of its own scene if `world_of` is given.
 // done: told the share of work done. Fails as scene::read_flight, Exit::impossible (targets), Exit::cannot_write (reference
-// frames).
+// frames, kept findings), and as world_of does.
 Result<SuiteResult> run_suite(Stage& stage, const std::vector<Case>& cases, std::span<const MethodSpec> specs,
-                              const std::function<void(double)>& done);
+                              const std::function<void(double)>& done, const WorldOf& world_of = {});
 
 // terrain:hard, which exchanges its levels at once, and lod-sprite:paper: what the remedied forms are seen beside; their misses
 // are shown and not held against them.
