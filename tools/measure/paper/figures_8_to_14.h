@@ -7,6 +7,8 @@
 
 #include "tools/measure/charts.h"
 #include "tools/measure/paper/fly.h"
+#include "tools/measure/paper/held_keys.h"
+#include "tools/measure/paper/remedies.h"
 
 namespace overlook::measure::paper {
 
@@ -26,6 +28,8 @@ struct Flown {
     std::vector<Swept> thresholds, frame_counts;
     std::vector<ViewPictures> views;
     std::vector<PathPoint> path;
+    RemedyTable remedies;
+    std::vector<HeldRun> held;  // empty: not flown
 };
 inline const RunResult& high_of(const Flown& flown) {
     return flown.beside.runs[0];

@@ -113,10 +113,10 @@ Result<ViewPictures> draw_view(const Flying& flying, const Cast& cast, const Pla
     return pictures;
 }
 
-std::vector<PathPoint> path_of(const Flying& flying) {
+std::vector<PathPoint> path_of(const Flying& flying, uint32_t frames) {
     const terrain::Terrain& terrain = *flying.world.terrain;
     std::vector<PathPoint> path;
-    for (const view::Camera& camera : cameras_of(flying, flying.frames)) {
+    for (const view::Camera& camera : cameras_of(flying, frames)) {
         PathPoint point{camera.position_m.x, camera.position_m.y, camera.position_m.z, 0, 0, false};
         double column = std::round(point.east_m / terrain.frame.metres_per_column);
         double row = std::round(-point.north_m / terrain.frame.metres_per_row);

@@ -64,11 +64,12 @@ struct ViewPictures {
 };
 Result<ViewPictures> draw_view(const Flying& flying, const Cast& cast, const PlanView& view);
 
-// Where the flight is above the ground, every frame; the ground's nearest sample below, the nearest of the border outside.
+// Where the flight is above the ground, every of so many frames; the ground's nearest sample below, the nearest of the border
+// outside.
 struct PathPoint {
     double east_m = 0, north_m = 0, height_m = 0, ground_m = 0, flown_m = 0;
     bool is_over_terrain = false;
 };
-std::vector<PathPoint> path_of(const Flying& flying);
+std::vector<PathPoint> path_of(const Flying& flying, uint32_t frames);
 
 }  // namespace overlook::measure::paper
