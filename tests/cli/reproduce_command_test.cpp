@@ -55,10 +55,13 @@ TEST_F(Reproduce, LeavesOutWhatIsNotAskedFor) {
     Words shorter = words("terrain:hard");
     for (size_t i = 0; i < shorter.size(); ++i)
         if (shorter[i] == "--remedy-frames" || shorter[i] == "--held-keys") shorter[i + 1] = "0";
+    shorter.push_back("--no-sweeps");
     expect_done(run(shorter));
     std::string page = text_of_file(folder_ / "out/index.html");
     EXPECT_EQ(page.find("What each remedy buys"), std::string::npos);
     EXPECT_EQ(page.find("Ghosts and losses against parallax"), std::string::npos);
+    EXPECT_EQ(page.find("figure-13"), std::string::npos);
+    EXPECT_NE(page.find("figure-11"), std::string::npos);
 }
 
 TEST_F(Reproduce, RefusesWhatItCannotFly) {

@@ -188,7 +188,8 @@ TEST(Remedies, TellOnlyWhatChanges) {
     whole.triangles = 1000, whole.ghost_share = 0.001, whole.hole_px = 2;
     EXPECT_EQ(change_of(whole, whole), "nothing that could be measured here");
     RemedyFigures without = whole;
-    without.mean_ms = 21;  // times are noisy
+    without.mean_ms = 22;  // times are noisy
+    without.p99_ms = 29;
     without.e_p99 = 0.104;
     without.ghost_share = 0.00104;
     EXPECT_EQ(change_of(whole, without), "nothing that could be measured here");
@@ -209,7 +210,7 @@ TEST(Remedies, AreCountedFromTheirRuns) {
     EXPECT_EQ(figures.mean_ms, 20);
     EXPECT_EQ(figures.triangles, 100);
     EXPECT_EQ(figures.key_pixels, 100);
-    EXPECT_EQ(figures.keys, 1u);
+    EXPECT_EQ(figures.keys, 1u) << "begun in the last frame; the event is that one takes over";
     EXPECT_DOUBLE_EQ(figures.e_mean, 0.1);
     EXPECT_EQ(figures.ghost_share, 0.5);
     EXPECT_EQ(figures.hole_px, 2);
@@ -282,7 +283,7 @@ TEST(HeldKeys, SweepTheThicknessThatThePaperDoesNotPrint) {
         thicknesses.insert(setting(run.spec, "depth-thickness"));
         in_strips += setting(run.spec, "strips") == 1;
     }
-    EXPECT_GE(own, 2u);
+    EXPECT_EQ(own, 1u);
     EXPECT_GE(thicknesses.size(), 4u);
     EXPECT_EQ(in_strips, 1u);
 }

@@ -210,8 +210,10 @@ std::string map_csv(const World& world) {
 }
 
 std::vector<Chart> charts_8_to_14(const Flown& flown) {
-    return {map_from_above(),      profile(),           triangles(flown), error(flown), times(flown),
-            by_frame_count(flown), by_threshold(flown), speed_up(flown)};
+    std::vector<Chart> charts = {map_from_above(), profile(), triangles(flown), error(flown), times(flown)};
+    if (!flown.frame_counts.empty()) charts.push_back(by_frame_count(flown));
+    if (!flown.thresholds.empty()) charts.insert(charts.end(), {by_threshold(flown), speed_up(flown)});
+    return charts;
 }
 
 std::optional<double> knee_of(const std::vector<CurvePoint>& points) {

@@ -46,7 +46,7 @@ std::string path_csv(const Flown& flown);
 // map.csv: the ground's heights on at most 160 x 160 points, in gnuplot's blocks.
 std::string map_csv(const World& world);
 
-// charts/figure-8-map, figure-8-profile, figure-9 .. figure-14, from those tables and frames.csv.
+// charts/figure-8-map, figure-8-profile, figure-9 .. figure-14, from those tables and frames.csv; without what was not swept.
 std::vector<Chart> charts_8_to_14(const Flown& flown);
 
 // Where a falling curve turns from steep to flat: of its points the one farthest below the straight line from the first to the

@@ -33,7 +33,7 @@ Result<CourseResult> fly_beside(const Flying& flying, const Cast& cast, const st
 struct Swept {
     std::string family;
     double threshold_px = kThreshold_px;
-    uint32_t frames = 0, keyframes = 0;    // frames on which a keyframe was made
+    uint32_t frames = 0, keyframes = 0;    // frames on which a keyframe was begun or made
     double mean_ms = 0, high_mean_ms = 0;  // the latter of the high cut in the same run; 0 where it did not fly along
     double keyframe_share() const { return double(keyframes) / frames; }
     double speed_up() const { return high_mean_ms / mean_ms; }

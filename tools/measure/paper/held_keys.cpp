@@ -75,7 +75,6 @@ Chart share_chart(const std::vector<HeldRun>& runs, const char* name, const char
 std::vector<HeldRun> held_runs(const Plan& plan) {
     const std::pair<const char*, const char*> asked[] = {
         {"lod-sprite", "lod-sprite"},
-        {"lod-sprite@near=0", "lod-sprite without near geometry"},
         {"lod-sprite:paper@depth-thickness=1e-6", "paper: depth thickness 1e-6"},
         {"lod-sprite:paper@depth-thickness=1e-5", "paper: depth thickness 1e-5"},
         {"lod-sprite:paper@depth-thickness=3e-5", "paper: depth thickness 3e-5"},

@@ -30,7 +30,7 @@ struct HeldRun {
     uint32_t judged_frames = 0;  // of those that used a key
 };
 
-// Both forms with their keys' threshold out of reach: Overlook's, and without near geometry; the paper's with its
+// Both forms with their keys' threshold out of reach: Overlook's; the paper's with its
 // depth-thickness, for which it prints no value, swept; with strips.
 std::vector<HeldRun> held_runs(const Plan& plan);
 

@@ -23,6 +23,7 @@ struct PaperOptions {
     std::vector<std::string> methods{"lod-sprite:paper", "lod-sprite"};
     std::vector<double> thresholds_px{0.25, 0.5, 1, 2, 4, 8};
     uint32_t frames = 600, remedy_frames = 90, held_parts = 5;
+    bool has_no_sweeps = false;
 };
 
 void add_paper_options(CLI::App& verb, PaperOptions& options) {
@@ -48,6 +49,7 @@ void add_paper_options(CLI::App& verb, PaperOptions& options) {
         ->type_name("N")
         ->check(command::number_in(0, 100))
         ->capture_default_str();
+    verb.add_flag("--no-sweeps", options.has_no_sweeps, "Leave out figures 12 to 14: other numbers of frames, other thresholds");
     verb.add_option("--out", options.out, "Folder for the page, tables and pictures; made if it is not there")
         ->type_name("DIR")
         ->required();
@@ -130,11 +132,11 @@ Result<Flown> fly_all(const Flying& flying, const Plan& plan, const Cast& cast, 
         Part part(progress, common, "held keys", 0.6, 0.7);
         kept = keep(fly_held_keys(flying, plan, options.held_parts, part.done()), flown.held);
     }
-    if (kept) {
+    if (kept && !options.has_no_sweeps) {
         Part part(progress, common, "thresholds", 0.7, 0.9);
         kept = keep(fly_thresholds(flying, cast, options.thresholds_px, part.done()), flown.thresholds);
     }
-    if (kept) {
+    if (kept && !options.has_no_sweeps) {
         Part part(progress, common, "numbers of frames", 0.9, 1);
         kept = fly_counts(flying, flown, part.done());
     }

@@ -67,9 +67,8 @@ std::string remedies_html(const RemedyTable& table) {
            "</tbody></table></div>\n<p class=\"note\">Triangles and key pixels: a frame, in the mean, keys included. E: LDR-FLIP "
            "beside the reference on every tenth frame, mean and 99th percentile over pixels; W: every frame. Ghosts and losses: "
            "of "
-           "the surface's pixels, in the mean. Holes: of the worst frame. Changes are told from a tenth of a time on, a "
-           "twentieth "
-           "of anything else. <a href=\"remedies.csv\">remedies.csv</a></p>\n";
+           "the surface's pixels, in the mean. Holes: of the worst frame. Changes are told from 15 % of the mean "
+           "time on, half of its 99th percentile, a twentieth of anything else. <a href=\"remedies.csv\">remedies.csv</a></p>\n";
 }
 
 std::string held_keys_html(const std::vector<HeldRun>& runs, bool has_charts) {

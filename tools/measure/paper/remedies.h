@@ -53,8 +53,9 @@ struct RemedyFigures {
 };
 RemedyFigures figures_of(const RunResult& run);
 
-// What changes without a remedy, from its row and the whole method's: "mean time x 1.4, W x 1.2, holes 0 to 35 px"; of times only
-// what changes by a tenth, of the rest what changes by a twentieth and could be seen; "nothing that could be measured here".
+// What changes without a remedy, from its row and the whole method's: "mean time x 1.4, W x 1.2, holes 0 to 35 px"; of the
+// mean time what changes by 15 %, of its 99th percentile by half (machines are noisy), of the rest what changes by a twentieth
+// and could be seen; "nothing that could be measured here".
 std::string change_of(const RemedyFigures& whole, const RemedyFigures& without);
 
 // remedies.csv: a row a row.

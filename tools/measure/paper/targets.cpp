@@ -114,8 +114,10 @@ class Teller {
     }
     std::string why_many_triangles(const RunResult& run) const {
         double novel = *mean_of(run, "triangles") - *mean_of(run, "key_triangles");
-        return fmt::format("{} a frame are the picture's own, {:.1f} times the low cut's: the rest is near geometry",
-                           short_count(novel), novel / *mean_of(low_, "triangles"));
+        return fmt::format(
+            "{} a frame are the picture's own, {:.1f} times the low cut's: near geometry, and frames without a key, which are "
+            "drawn finer",
+            short_count(novel), novel / *mean_of(low_, "triangles"));
     }
     std::string why_many_with_keys(const RunResult& run) const {
         return fmt::format("{:.0f} % of them are drawn into keys",
