@@ -51,7 +51,7 @@ std::string level(double value, const std::string& title) {
 std::string printed_level(double value, const std::string& title) {
     return fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead back {1} lw 1.5 dt 2\nset label {2} at graph 0.99, first "
-        "{0} right offset 0,0.5 tc rgb \"#666666\" font ',12' noenhanced\n",
+        "{0} right offset 0,0.5 tc rgb \"#333333\" font ',12' noenhanced front boxed\n",
         value, kGrey, gnuplot_text(title));
 }
 std::string printed_point(double x, double y, const std::string& title) {
@@ -82,7 +82,9 @@ Chart error(const Flown& flown) {
 
 Chart times(const Flown& flown) {
     Chart chart{"figure-11", "Figure 11: time of each frame", chart_head(4)};
-    chart.script += x_label("frame") + "set ylabel 'milliseconds'\nset logscale y\nset yrange [*<10:1000<*]\n" +
+    chart.script += x_label("frame") +
+                    "set ylabel 'milliseconds'\nset logscale y\nset yrange [*<10:1000<*]\nset style textbox opaque noborder fc "
+                    "rgb '#ffffff'\n" +
                     printed_level(Printed::kHighMean_ms, "paper: high, mean 526") +
                     printed_level(Printed::kKeyframeMean_ms, "paper: keyframes, mean 680") +
                     printed_level(Printed::kMean_ms, "paper: LOD-sprite, mean 53") +

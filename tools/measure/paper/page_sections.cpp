@@ -38,6 +38,10 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag, co
     return html + "</tr>\n";
 }
 
+std::string said_row(const std::string& text, size_t columns) {
+    return text.empty() ? "" : fmt::format("<tr class=\"said\"><td colspan=\"{}\">{}</td></tr>\n", columns, text);
+}
+
 std::string chart_html(const std::string& name, const std::string& title, const std::string& sentence) {
     return fmt::format(
         "<figure>\n<h3>{1}</h3>\n<picture><source media=\"(max-width: 640px)\" srcset=\"charts/{0}-narrow.svg\"><img "

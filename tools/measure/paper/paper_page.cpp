@@ -19,7 +19,6 @@ constexpr char kPaperStyle[] = R"(.numbers td:last-child { text-align: right; mi
 .numbers .said td { text-align: left; white-space: normal; padding: 0 9px 10px; color: #4a545c; }
 .numbers tr:has(+ .said) > * { border-bottom: none; }
 .runs thead th:first-child:empty { min-width: 9em; }
-.note-last th:last-child { text-align: left; }
 .four { display: grid; grid-template-columns: repeat(4, 1fr); gap: 10px; }
 .four figure { margin: 0 0 0.6em; }
 @media (max-width: 640px) { .four { grid-template-columns: 1fr 1fr; } }
@@ -51,11 +50,17 @@ FigurePicture difference_picture(const std::string& name, const std::string& wha
             error_picture(difference.map, a.width, a.height)};
 }
 
+// What is to be said of a target, or nothing.
+std::string said_of(const Target& target) {
+    std::string text = escaped(target.note);
+    if (!target.why.empty()) text += (text.empty() ? "" : ". ") + ("<strong>Missed:</strong> " + escaped(target.why));
+    return text;
+}
+
 std::string targets_html(const Flown& flown) {
-    std::vector<std::string> head = {"figure", "paper", "to reach"};
+    std::vector<std::string> head = {"", "paper", "to reach"};
     for (const RunResult* sprite : sprites_of(flown)) head.push_back(escaped(family_of(sprite->spec)));
-    head.push_back("");
-    std::string html = "<h2>Figures to reach</h2>\n<div class=\"wide\"><table class=\"runs note-last\">\n<thead>" +
+    std::string html = "<h2>Figures to reach</h2>\n<div class=\"wide\"><table class=\"runs numbers\">\n<thead>" +
                        table_row(head, "th") + "</thead>\n<tbody>\n";
     for (const Target& target : targets_of(flown)) {
         std::vector<std::string> cells = {escaped(target.name), escaped(target.printed),
@@ -68,11 +73,11 @@ std::string targets_html(const Flown& flown) {
             else
                 cells.push_back("<strong class=\"broken\">" + short_number(*target.measured[i]) + "</strong>");
         }
-        cells.push_back(escaped(target.note));
-        if (!target.why.empty()) cells.back() += (target.note.empty() ? "" : ". ") + ("Why: " + escaped(target.why)) + ".";
-        html += table_row(cells, "td");
+        html += table_row(cells, "td") + said_row(said_of(target), cells.size());
     }
-    return html + "</tbody></table></div>\n<p class=\"note\">Red: missed. Why: of the last method.</p>\n";
+    return html +
+           "</tbody></table></div>\n<p class=\"note\">Red: missed; the reason is the last method's, from this run's "
+           "numbers.</p>\n";
 }
 
 std::string runs_html(const Flown& flown) {

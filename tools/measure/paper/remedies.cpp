@@ -11,9 +11,14 @@
 namespace overlook::measure::paper {
 namespace {
 
-constexpr std::array<Remedy, 11> kRemedies = {{
+// How keys are made is a setting by words where the method has a second context for them, a switch where it has not.
+constexpr std::array<Remedy, 13> kRemedies = {{
+    {"keys in slices", "keyframe=at-once",
+     "A key is drawn a slice a frame, for a pose predicted ahead; here whole, in the frame that finds the old one too bad."},
+    {"keys in slices", "keyframe=thread",
+     "A key is drawn a slice a frame, for a pose predicted ahead; here whole, by a thread in a second context."},
     {"keys in slices", "sliced=0",
-     "A key is drawn a slice a frame, for a pose predicted ahead; without, whole, in the frame that finds the old one too bad."},
+     "A key is drawn a slice a frame, for a pose predicted ahead; here whole, in the frame that finds the old one too bad."},
     {"cache of keys", "slots=2", "Four keys are kept for a way back; without, only the one in use and the one being drawn."},
     {"guard band", "guard=1", "A key is 15 % wider and higher than the frame, so that turning does not leave it at once."},
     {"cross-fade", "fade-frames=0", "A new key takes over from the old one within eight frames; without, at once."},
@@ -62,7 +67,7 @@ std::vector<view::Camera> lead_of(const Flying& flying, const RemedyTable& table
 
 Result<Cast> cast_of_rows(const Plan& plan) {
     std::vector<std::string> methods = {"lod-sprite:paper", "lod-sprite"};
-    for (const Remedy& remedy : kRemedies) methods.push_back("lod-sprite@" + std::string(remedy.off));
+    for (const Remedy& remedy : remedies()) methods.push_back("lod-sprite@" + std::string(remedy.off));
     return cast_from(plan, methods);
 }
 
@@ -90,7 +95,13 @@ std::string told(const Change& change) {
 }  // namespace
 
 std::span<const Remedy> remedies() {
-    return kRemedies;
+    static const std::vector<Remedy> kKnown = [] {
+        std::vector<Remedy> known;
+        for (const Remedy& remedy : kRemedies)
+            if (parse_method("lod-sprite@" + std::string(remedy.off))) known.push_back(remedy);
+        return known;
+    }();
+    return kKnown;
 }
 
 Result<RemedyTable> fly_remedies(const Flying& flying, const Plan& plan, uint32_t frames,
@@ -114,8 +125,8 @@ Result<RemedyTable> fly_remedies(const Flying& flying, const Plan& plan, uint32_
 
     for (size_t i = 0; i < kHeldAgainst.size(); ++i)
         table.rows.push_back({kHeldAgainst[i].name, "", kHeldAgainst[i].purpose, std::move(flown->runs[i])});
-    for (size_t i = 0; i < kRemedies.size(); ++i) {
-        const Remedy& remedy = kRemedies[i];
+    for (size_t i = 0; i < remedies().size(); ++i) {
+        const Remedy& remedy = remedies()[i];
         RunResult& run = flown->runs[kHeldAgainst.size() + i];
         table.rows.push_back({std::string(remedy.name), std::string(remedy.off), std::string(remedy.purpose), std::move(run)});
     }
