@@ -22,8 +22,8 @@ class Reproduce : public testing::Test {
                          sample_ + "/sample.ovl", "--quiet"}));
     }
     Words words(const std::string& method) const {
-        return {"reproduce", "lod-sprite", sample_, "--out",  folder_ / "out", "--method",
-                method,      "--frames",   "16",    "--size", "32x32"};
+        return {"reproduce", "lod-sprite", sample_,           "--out", folder_ / "out", "--method", method, "--frames", "16",
+                "--size",    "32x32",      "--remedy-frames", "3",     "--held-keys",   "1"};
     }
 };
 
@@ -32,10 +32,32 @@ TEST_F(Reproduce, LeavesThePapersFiguresAndAPage) {
     expect_done(ran);
     EXPECT_NE(ran.err.find("speed-up of the mean frame"), std::string::npos) << ran.err;
     for (const char* name : {"index.html", "measured.html", "frames.csv", "runs.json", "thresholds.csv", "frame_counts.csv",
-                             "path.csv", "map.csv", "charts/figure-9.gp", "images/figure-6a.png", "images/figure-7e.png"})
+                             "path.csv", "map.csv", "remedies.csv", "held_keys.csv", "charts/figure-9.gp",
+                             "charts/losses-parallax.gp", "images/figure-6a.png", "images/figure-7e.png"})
         EXPECT_TRUE(std::filesystem::exists(folder_ / (std::string("out/") + name))) << name;
     std::string counts = text_of_file(folder_ / "out/frame_counts.csv");
     for (const char* frames : {",2,", ",4,", ",8,", ",16,", ",32,"}) EXPECT_NE(counts.find(frames), std::string::npos) << counts;
+    std::string remedies = text_of_file(folder_ / "out/remedies.csv"), held = text_of_file(folder_ / "out/held_keys.csv");
+    for (const char* off : {",slots=2,", ",guard=1,", ",fade-frames=0,", ",outlines=0,", ",place-test=0,", ",key-scale=1,"})
+        EXPECT_NE(remedies.find(off), std::string::npos) << remedies;
+    for (const char* range : {"\nlod-sprite,", "paper: depth thickness 1e-4,10,16,32,", "paper: 1e-4 in strips,10,64,,"})
+        EXPECT_NE(held.find(range), std::string::npos) << held;
+    std::string page = text_of_file(folder_ / "out/index.html");
+    EXPECT_NE(page.find("What each remedy buys"), std::string::npos);
+    EXPECT_NE(page.find("Ghosts and losses against parallax"), std::string::npos);
+}
+
+TEST_F(Reproduce, LeavesOutWhatIsNotAskedFor) {
+    Words shorter = words("terrain:hard");
+    for (size_t i = 0; i < shorter.size(); ++i)
+        if (shorter[i] == "--remedy-frames" || shorter[i] == "--held-keys") shorter[i + 1] = "0";
+    shorter.push_back("--no-sweeps");
+    expect_done(run(shorter));
+    std::string page = text_of_file(folder_ / "out/index.html");
+    EXPECT_EQ(page.find("What each remedy buys"), std::string::npos);
+    EXPECT_EQ(page.find("Ghosts and losses against parallax"), std::string::npos);
+    EXPECT_EQ(page.find("figure-13"), std::string::npos);
+    EXPECT_NE(page.find("figure-11"), std::string::npos);
 }
 
 TEST_F(Reproduce, RefusesWhatItCannotFly) {

@@ -315,6 +315,39 @@ TEST(MeasuredCourse, InPairsHasTheNumbersOfAllOnEveryTenthFrameAndTheNext) {
     }
 }
 
+TEST(MeasuredCourse, InStepsComparesEveryFrameButTakesEOnEveryTenthAlone) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills hills = long_flight(Compared::steps);
+    hills.course.specs = *specs_from({"lod-sprite:paper@low-error-px=4@key-error-px=0.01@samples=1", "full@samples=1"}, {});
+    CourseResult steps = hills.run(context->renderer());
+    EXPECT_EQ(steps.references_drawn, 23u);
+    for (uint32_t frame = 0; frame < 23; ++frame) {
+        const FrameRecord& record = steps.runs[0].frames[frame];
+        EXPECT_EQ(record.counters.event_count, 1u) << "a keyframe, for whose sake others would take E";
+        EXPECT_TRUE(record.numbers.psnr_db);
+        EXPECT_EQ(record.numbers.e_p99.has_value(), frame % 10 == 0) << frame;
+        EXPECT_EQ(record.numbers.w.has_value(), frame > 0) << frame;
+    }
+}
+
+TEST(MeasuredCourse, WithALeadIsTheEndOfALongerOne) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Hills whole = long_flight(Compared::all), end = long_flight(Compared::all);
+    whole.course.specs = end.course.specs = *specs_from({"lod-sprite@samples=1", "full@samples=1"}, {});
+    std::vector<view::Camera>& cameras = end.course.cameras;
+    end.course.lead.assign(cameras.begin(), cameras.begin() + 12);
+    cameras.erase(cameras.begin(), cameras.begin() + 12);
+    CourseResult all = whole.run(context->renderer()), part = end.run(context->renderer());
+    ASSERT_EQ(part.runs[0].frames.size(), 11u);
+    for (uint32_t frame = 0; frame < 11; ++frame) {
+        const FrameRecord &late = part.runs[0].frames[frame], &same = all.runs[0].frames[12 + frame];
+        EXPECT_EQ(late.frame, frame);
+        EXPECT_EQ(late.counters, same.counters);
+        EXPECT_EQ(late.numbers.psnr_db, same.numbers.psnr_db);
+    }
+    EXPECT_NE(part.runs[0].frames[0].counters, all.runs[0].frames[0].counters) << "without a lead it would begin without a key";
+}
+
 TEST(MeasuredCourse, ComparedWithNothingHasCountersAloneAndNeedsNoFloor) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Hills hills = long_flight(Compared::none), of_all = long_flight(Compared::all);

@@ -1,7 +1,11 @@
 // What section 4 of the LOD-sprite paper is run with, and what is made of the runs.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <set>
+
 #include "tools/measure/methods.h"
+#include "tools/measure/paper/page_sections.h"
 #include "tools/measure/paper/paper_page.h"
 #include "tools/measure/paper/targets.h"
 
@@ -126,6 +130,24 @@ TEST(PaperTargets, AreCountedFromTheRuns) {
     EXPECT_FALSE(measured("W, mean")) << "no W was taken";
 }
 
+TEST(PaperTargets, TellWhyTheyAreMissedAndNothingElse) {
+    Flown flown = small_flown();
+    for (const Target& target : targets_of(flown)) {
+        bool is_missed = target.measured[0] && !target.is_reached(0);
+        EXPECT_TRUE(is_missed || target.why.empty()) << target.name;
+    }
+    RunResult& sprite = flown.beside.runs[2];
+    std::swap(sprite.frames[0].counters, sprite.frames[2].counters);  // the first key takes over at the third frame
+    for (uint32_t frame : {2u, 3u}) sprite.frames[frame].numbers.e_mean = 0.1;
+    std::vector<Target> targets = targets_of(flown);
+    EXPECT_NE(targets[0].why.find("the low cut by itself gains 25.0"), std::string::npos) << targets[0].why;
+    EXPECT_DOUBLE_EQ(*targets[6].measured[0], 1.5);
+    EXPECT_EQ(
+        targets[6].why,
+        "frames before the first key, which is whole at frame 2, are drawn coarser; from then on it is 1, worst at frame 2, "
+        "0 frames after a key took over");
+}
+
 TEST(PaperTargets, LeaveOutWhatKeyframesCostWhereASliceIsDrawnEveryFrame) {
     Flown flown = small_flown();
     for (FrameRecord& frame : flown.beside.runs[2].frames) {
@@ -138,7 +160,7 @@ TEST(PaperTargets, LeaveOutWhatKeyframesCostWhereASliceIsDrawnEveryFrame) {
 }
 
 TEST(PaperTargets, AreReachedOnTheirOwnSide) {
-    Target least{"", "", 10, true, {9.0, 10.0, std::nullopt}, ""}, most{"", "", 10, false, {11.0, 10.0}, ""};
+    Target least{"", "", 10, true, {9.0, 10.0, std::nullopt}, "", ""}, most{"", "", 10, false, {11.0, 10.0}, "", ""};
     EXPECT_FALSE(least.is_reached(0));
     EXPECT_TRUE(least.is_reached(1));
     EXPECT_FALSE(least.is_reached(2));
@@ -161,6 +183,144 @@ TEST(PaperFigures, ShowDifferencesFourTimesAsGreat) {
     EXPECT_NE(pictures[3].caption.find("mean 0 of 255"), std::string::npos) << pictures[3].caption;
     EXPECT_NE(pictures[4].caption.find("mean 10 of 255"), std::string::npos) << pictures[4].caption;
     EXPECT_NE(pictures[3].image.pixels, pictures[4].image.pixels);
+}
+
+TEST(Remedies, AreSettingsOfTheMethodThatChangeItEachByItself) {
+    MethodSpec whole = *parse_method("lod-sprite");
+    std::set<std::string> labels;
+    for (const Remedy& remedy : remedies()) {
+        Result<MethodSpec> spec = parse_method("lod-sprite@" + std::string(remedy.off));
+        ASSERT_TRUE(spec) << spec.error().message;
+        size_t changed = 0;
+        for (size_t i = 0; i < spec->settings.size(); ++i) changed += spec->settings[i] != whole.settings[i];
+        EXPECT_EQ(changed, 1u) << remedy.off;
+        EXPECT_TRUE(labels.insert(label_of(*spec)).second) << remedy.off;
+    }
+    EXPECT_GE(labels.size(), 11u);
+}
+
+TEST(Remedies, TellOnlyWhatChanges) {
+    RemedyFigures whole;
+    whole.mean_ms = whole.p99_ms = 20;
+    whole.e_mean = 0.02, whole.e_p99 = 0.1, whole.w_mean = 0.001, whole.pop_index = 1.2;
+    whole.triangles = 1000, whole.ghost_share = 0.001, whole.hole_px = 2;
+    EXPECT_EQ(change_of(whole, whole), "nothing that could be measured here");
+    RemedyFigures without = whole;
+    without.mean_ms = 22;  // times are noisy
+    without.p99_ms = 29;
+    without.e_p99 = 0.104;
+    without.ghost_share = 0.00104;
+    EXPECT_EQ(change_of(whole, without), "nothing that could be measured here");
+    without.p99_ms = 60;
+    without.w_mean = 0.0008;
+    without.ghost_share = 0.02;
+    without.hole_px = 0;
+    EXPECT_EQ(change_of(whole, without), "p99 time x 3.00, W x 0.80, ghosts 0.10 to 2.00 %, holes 2 to 0 px");
+}
+
+TEST(Remedies, AreCountedFromTheirRuns) {
+    RunResult run = run_of(*parse_method("lod-sprite"), {10, 20, 30}, 100);
+    for (FrameRecord& frame : run.frames) frame.numbers.hole_count = frame.frame;
+    run.frames[1].counters.event_count = 1;
+    run.frames[2].counters.key_pixel_count = 300;
+    run.frames[2].numbers.ghost_share = 0.5;  // the only frame that used a key
+    RemedyFigures figures = figures_of(run);
+    EXPECT_EQ(figures.mean_ms, 20);
+    EXPECT_EQ(figures.triangles, 100);
+    EXPECT_EQ(figures.key_pixels, 100);
+    EXPECT_EQ(figures.keys, 1u) << "begun in the last frame; the event is that one takes over";
+    EXPECT_DOUBLE_EQ(figures.e_mean, 0.1);
+    EXPECT_EQ(figures.ghost_share, 0.5);
+    EXPECT_EQ(figures.hole_px, 2);
+}
+
+TEST(Remedies, AreARowEach) {
+    RemedyTable table;
+    EXPECT_EQ(remedies_html(table), "") << "not flown";
+    for (const char* name : {"high", "paper", "all"}) table.rows.push_back({name, "", "", run_of({name, "", {}}, {10}, 100)});
+    table.rows.push_back({"cross-fade", "fade-frames=0", "Why.", run_of({"off", "", {}}, {40}, 100)});
+    table.floor = run_of(floor_spec(1), {90}, 1000);
+    std::string html = remedies_html(table), csv = remedies_csv(table);
+    EXPECT_NE(html.find("<code>fade-frames=0</code>"), std::string::npos);
+    EXPECT_NE(html.find("Why. <strong>Then: mean time x 4.00, p99 time x 4.00.</strong>"), std::string::npos) << html;
+    EXPECT_NE(csv.find("\ncross-fade,fade-frames=0,40,40,100,"), std::string::npos) << csv;
+}
+
+constexpr uint8_t kSky = 0;
+
+// Four pixels of a wall 100 m ahead and one of sky, in a row; the first key 10 m beside the camera, the second 20 m.
+struct HeldScene {
+    Frame truth;
+    Sources sources;
+    Reuse reuse;
+
+    HeldScene() {
+        truth.width = truth.camera.width_px = 5;
+        truth.height = truth.camera.height_px = 100;
+        truth.camera.fov_y_deg = 90;
+        truth.depth_m.assign(500, 100);
+        for (size_t row = 0; row < 100; ++row) truth.depth_m[5 * row + 4] = std::numeric_limits<float>::infinity();
+        sources.keys = {truth.camera, truth.camera};
+        sources.keys[0].position_m.x += 10;
+        sources.keys[1].position_m.x += 20;
+        sources.of_pixel.assign(500, 1);
+        reuse.is_ghost.assign(500, 0);
+        reuse.is_loss.assign(500, 0);
+    }
+};
+
+TEST(HeldKeys, JudgeAPixelByTheKeyThatItShows) {
+    HeldScene scene;
+    scene.sources.of_pixel[1] = 2;
+    scene.sources.of_pixel[2] = 3;
+    scene.sources.of_pixel[3] = Sources::kOwn;
+    scene.sources.of_pixel[4] = kSky;
+    scene.sources.of_pixel[5] = Sources::kNear;
+    scene.reuse.is_ghost[1] = scene.reuse.is_loss[3] = 1;
+    JudgedPixels judged = judged_pixels(scene.sources, scene.truth, scene.reuse);
+    EXPECT_NEAR(judged.parallax_px[0], 5, 1e-4);
+    EXPECT_NEAR(judged.parallax_px[1], 10, 1e-4);
+    EXPECT_NEAR(judged.parallax_px[2], 10, 1e-4) << "of several the greatest";
+    EXPECT_NEAR(judged.parallax_px[3], 5, 1e-4) << "of none the least";
+    std::vector<Reused> is(judged.pixels.begin(), judged.pixels.begin() + 6);
+    EXPECT_EQ(
+        is, (std::vector<Reused>{Reused::well, Reused::ghost, Reused::well, Reused::loss, Reused::nothing_there, Reused::near}));
+}
+
+TEST(HeldKeys, SweepTheThicknessThatThePaperDoesNotPrint) {
+    std::vector<HeldRun> runs = held_runs({0.03, 7, {}});
+    std::set<double> thicknesses;
+    size_t own = 0, in_strips = 0;
+    for (const HeldRun& run : runs) {
+        EXPECT_EQ(setting(run.spec, "key-error-px"), 1000) << run.title;
+        EXPECT_EQ(setting(run.spec, "low-error-px"), 7) << run.title;
+        if (run.spec.variant != "paper") {
+            ++own;
+            continue;
+        }
+        thicknesses.insert(setting(run.spec, "depth-thickness"));
+        in_strips += setting(run.spec, "strips") == 1;
+    }
+    EXPECT_EQ(own, 1u);
+    EXPECT_GE(thicknesses.size(), 4u);
+    EXPECT_EQ(in_strips, 1u);
+}
+
+TEST(HeldKeys, AreHeldAgainstTheFiguresUpToThirtyTwoPixels) {
+    std::vector<HeldRun> runs = held_runs({0.03, 7, {}});
+    runs.resize(2);
+    std::vector<float> parallax(1000, 10);
+    std::vector<Reused> pixels(1000, Reused::well);
+    pixels[0] = Reused::ghost;
+    runs[0].tally.add(parallax, pixels);
+    std::fill_n(pixels.begin(), 20, Reused::loss);
+    runs[1].tally.add(parallax, pixels);
+    std::string html = held_keys_html(runs, true), csv = held_keys_csv(runs);
+    EXPECT_NE(html.find("<td>0.10</td><td>0.00</td>"), std::string::npos) << html;
+    EXPECT_NE(html.find("<td><strong class=\"broken\">2.00</strong></td>"), std::string::npos) << html;
+    EXPECT_NE(csv.find("\nlod-sprite,0,8,16,11.31,1000,0.001,0,0\n"), std::string::npos) << csv;
+    EXPECT_EQ(held_keys_charts(runs).size(), 2u);
+    EXPECT_EQ(held_keys_html({}, true), "");
 }
 
 TEST(PaperPage, HoldsEveryFigureAndMarksWhatIsMissed) {

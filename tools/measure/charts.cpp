@@ -211,6 +211,10 @@ std::string gnuplot_text(const std::string& text) {
     return quoted(text);
 }
 
+std::string x_label(const std::string& text) {
+    return "set xlabel \"" + text + "\\n \"\n";
+}
+
 int frames_column(std::string_view figure_name) {
     return std::stoi(column_of(figure_name));
 }

@@ -21,6 +21,8 @@ struct Chart {
 std::string chart_head(size_t key_rows);
 // A text as gnuplot takes it.
 std::string gnuplot_text(const std::string& text);
+// Names the horizontal axis, with room below for the key.
+std::string x_label(const std::string& text);
 // Which column of frames.csv a figure is in, as gnuplot counts them.
 int frames_column(std::string_view figure_name);
 // Colours that the colour-blind tell apart, by turns.

@@ -38,6 +38,10 @@ class Field {
         }
         for (const MethodSpec& spec : course.specs) field.add_run(spec, world);
         for (size_t i = 0; i < course.specs.size(); ++i) field.warm_up(i, world, camera);
+        for (uint32_t frame = 0; frame < course.lead.size(); ++frame) {
+            for (size_t i = 0; i < course.specs.size(); ++i) field.draw(i, course.lead[frame], frame);
+        }
+        field.lead_frames_ = uint32_t(course.lead.size());
         return field;
     }
 
@@ -47,7 +51,7 @@ class Field {
         FrameRecord record;
         record.frame = frame;
         gl::Timer deciding;
-        running.method->decide(camera, frame);
+        running.method->decide(camera, lead_frames_ + frame);
         record.decide_ms = deciding.elapsed_ms();
         gl::Timer drawing;
         record.counters = running.method->draw(*running.target);
@@ -101,6 +105,8 @@ class Field {
         method->draw(*runs[run].target);
         glFinish();
     }
+
+    uint32_t lead_frames_ = 0;
 };
 
 // A run without one, which nothing compares, is its own.
@@ -127,8 +133,10 @@ class Judge {
     Result<void> judge(Field& field, uint32_t frame) {
         bool has_event = std::any_of(field.results.begin(), field.results.end(),
                                      [&](const RunResult& run) { return run.frames[frame].counters.event_count > 0; });
+        bool is_pairs = course_.compared == Compared::pairs;
+        if (course_.compared == Compared::steps) has_event = false;
         bool wants_e = frame % kFlipStep == 0 || has_event || had_event_;
-        bool is_compared = course_.compared == Compared::all || wants_e || frame % kFlipStep == 1;
+        bool is_compared = !is_pairs || wants_e || frame % kFlipStep == 1;
         std::optional<Frame> truth;
         if (is_compared) {
             Result<Frame> drawn = referred(frame);

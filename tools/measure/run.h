@@ -19,6 +19,7 @@ namespace overlook::measure {
 // On which frames pictures are held against the reference, which is dear to draw.
 enum class Compared {
     all,    // every one
+    steps,  // every one, but E on every tenth alone, whatever events there are: for many runs, whose events lie everywhere
     pairs,  // every tenth with the one after it, and three round each event
     none,   // none: times and counters only
 };
@@ -29,6 +30,8 @@ struct Course {
     std::vector<view::Camera> cameras;  // one a frame, all of the same size
     double step_s = 1.0 / 60;           // of the logical clock, from frame to frame
     Compared compared = Compared::all;
+    // Drawn by every run before the first frame, and not counted: what a flight that is under way knows.
+    std::vector<view::Camera> lead = {};
 };
 
 // G is taken on at most so many frames, evenly spread from the first to the last: each looks at every sample in view.

@@ -43,9 +43,16 @@ std::string plot_of(const std::vector<Line>& lines, std::string_view figure_name
     return plot;
 }
 
-// A level that the paper prints, across the chart.
-std::string printed_level(double value, const std::string& title) {
+// A level across the chart, named in the key.
+std::string level(double value, const std::string& title) {
     return fmt::format(", \\\n{} with lines {} lw 1.5 dt 2 title {}", value, kGrey, gnuplot_text(title));
+}
+// One that the paper prints, named where it is.
+std::string printed_level(double value, const std::string& title) {
+    return fmt::format(
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead back {1} lw 1.5 dt 2\nset label {2} at graph 0.99, first "
+        "{0} right offset 0,0.5 tc rgb \"#333333\" font ',12' noenhanced front boxed\n",
+        value, kGrey, gnuplot_text(title));
 }
 std::string printed_point(double x, double y, const std::string& title) {
     return fmt::format(", \\\n'-' using 1:2 with points pt 2 ps 1.6 lw 2 lc rgb \"#9c2f00\" title {}\n{},{}\ne\n",
@@ -54,7 +61,7 @@ std::string printed_point(double x, double y, const std::string& title) {
 
 Chart triangles(const Flown& flown) {
     Chart chart{"figure-9", "Figure 9: triangles drawn, frame by frame", chart_head(6)};
-    chart.script += "set xlabel 'frame'\nset ylabel 'triangles'\nset logscale y\nset format y '%.0s%c'\n";
+    chart.script += x_label("frame") + "set ylabel 'triangles'\nset logscale y\nset format y '%.0s%c'\n";
     chart.script += "$paper << EOD\n";
     for (const PlanView& view : flown.plan.views) {
         double frame = view.time_s / flown.step_s;
@@ -68,19 +75,21 @@ Chart triangles(const Flown& flown) {
 
 Chart error(const Flown& flown) {
     Chart chart{"figure-10", "Figure 10: the method's own error, frame by frame", chart_head(6)};
-    chart.script += "set xlabel 'frame'\nset ylabel 'error, pixels'\nset yrange [0:*]\n";
-    chart.script += plot_of(lines_of(flown, true), "predicted_error_px") + printed_level(kThreshold_px, "threshold") + "\n";
+    chart.script += x_label("frame") + "set ylabel 'error, pixels'\nset yrange [0:*]\n";
+    chart.script += plot_of(lines_of(flown, true), "predicted_error_px") + level(kThreshold_px, "threshold") + "\n";
     return chart;
 }
 
 Chart times(const Flown& flown) {
-    Chart chart{"figure-11", "Figure 11: time of each frame", chart_head(6)};
-    chart.script += "set xlabel 'frame'\nset ylabel 'milliseconds'\nset logscale y\n";
-    chart.script += plot_of(lines_of(flown, false), "frame_ms") +
-                    printed_level(Printed::kHighMean_ms, "paper: high, mean 526 ms") +
-                    printed_level(Printed::kKeyframeMean_ms, "paper: keyframes, 680 ms") +
-                    printed_level(Printed::kMean_ms, "paper: LOD-sprite, 53 ms") +
-                    printed_level(Printed::kLowMean_ms, "paper: low, 22 ms") + "\n";
+    Chart chart{"figure-11", "Figure 11: time of each frame", chart_head(4)};
+    chart.script += x_label("frame") +
+                    "set ylabel 'milliseconds'\nset logscale y\nset yrange [*<10:1000<*]\nset style textbox opaque noborder fc "
+                    "rgb '#ffffff'\n" +
+                    printed_level(Printed::kHighMean_ms, "paper: high, mean 526") +
+                    printed_level(Printed::kKeyframeMean_ms, "paper: keyframes, mean 680") +
+                    printed_level(Printed::kMean_ms, "paper: LOD-sprite, mean 53") +
+                    printed_level(Printed::kLowMean_ms, "paper: low, mean 22") + plot_of(lines_of(flown, false), "frame_ms") +
+                    "\n";
     return chart;
 }
 
@@ -101,7 +110,13 @@ std::string swept_plot(const Flown& flown, const char* table, const char* x, con
 
 Chart by_frame_count(const Flown& flown) {
     Chart chart{"figure-12", "Figure 12: share of keyframes against the number of frames on the same way", chart_head(6)};
-    chart.script += "set xlabel 'frames on the way'\nset ylabel 'keyframes / frames'\nset logscale x\nset yrange [0:*]\n";
+    chart.script += x_label("frames on the way") + "set ylabel 'keyframes / frames'\nset logscale x\nset yrange [0:*]\n";
+    std::string tics;
+    for (const Swept& one : flown.frame_counts) {
+        std::string tic = fmt::format("{}", one.frames);
+        if ((", " + tics + ", ").find(", " + tic + ", ") == std::string::npos) tics += (tics.empty() ? "" : ", ") + tic;
+    }
+    chart.script += "set offsets graph 0.05, graph 0.05, 0, 0\nset xtics (" + tics + ")\nset mxtics 1\n";
     chart.script += swept_plot(flown, "frame_counts.csv", "$3", "5") +
                     printed_point(Printed::kFrames, double(Printed::kKeyframes) / Printed::kFrames, "paper: 16 of 600");
     return chart;
@@ -109,7 +124,7 @@ Chart by_frame_count(const Flown& flown) {
 
 Chart by_threshold(const Flown& flown) {
     Chart chart{"figure-13", "Figure 13: share of keyframes against the threshold", chart_head(6)};
-    chart.script += "set xlabel 'threshold, pixels'\nset ylabel 'keyframes / frames'\nset yrange [0:*]\nset xrange [0:*]\n";
+    chart.script += x_label("threshold, pixels") + "set ylabel 'keyframes / frames'\nset yrange [0:*]\nset xrange [0:*]\n";
     chart.script +=
         fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} lw 1.5 dt 2\n", Printed::kKneeThreshold_px, kGrey);
     chart.script +=
@@ -122,7 +137,7 @@ Chart by_threshold(const Flown& flown) {
 Chart speed_up(const Flown& flown) {
     Chart chart{"figure-14", "Figure 14: speed-up of the mean frame against the threshold", chart_head(6)};
     chart.script +=
-        "set xlabel 'threshold, pixels'\nset ylabel 'high cut / method, mean time'\nset yrange [0:*]\nset xrange [0:*]\n";
+        x_label("threshold, pixels") + "set ylabel 'high cut / method, mean time'\nset yrange [0:*]\nset xrange [0:*]\n";
     chart.script +=
         swept_plot(flown, "thresholds.csv", "$2", "8") + printed_point(kThreshold_px, Printed::kSpeedUp, "paper: 9.9 at 1 px");
     return chart;
@@ -131,7 +146,7 @@ Chart speed_up(const Flown& flown) {
 // Columns of path.csv: 1 frame, 2 east, 3 north, 4 height, 5 ground, 6 flown, 7 is_key, 8 is_over_terrain.
 Chart map_from_above() {
     Chart chart{"figure-8-map", "Figure 8: the flight from above", chart_head(6)};
-    chart.script += "set xlabel 'east, km'\nset ylabel 'north, km'\nset size ratio -1\nset colorbox\nset cblabel 'ground, m'\n";
+    chart.script += x_label("east, km") + "set ylabel 'north, km'\nset size ratio -1\nset colorbox\nset cblabel 'ground, m'\n";
     chart.script += "set palette defined (0 '#7c9a5e', 0.25 '#c9c58a', 0.6 '#8d7a68', 1 '#ffffff')\n";
     chart.script +=
         "plot '../map.csv' using 1:2:3 with image notitle, \\\n"
@@ -143,7 +158,7 @@ Chart map_from_above() {
 
 Chart profile() {
     Chart chart{"figure-8-profile", "Figure 8: the flight from the side", chart_head(6)};
-    chart.script += "set xlabel 'way flown, km'\nset ylabel 'height, m'\nset yrange [0:*]\n";
+    chart.script += x_label("way flown, km") + "set ylabel 'height, m'\nset yrange [0:*]\n";
     chart.script +=
         "plot '../path.csv' skip 1 using ($8 > 0 ? $6 : NaN):5 with filledcurves x1 lc rgb \"#a9b08a\" title 'ground below', \\\n"
         "'' skip 1 using 6:4 with lines lw 2.5 lc rgb \"#D55E00\" title 'flight', \\\n"
@@ -197,8 +212,10 @@ std::string map_csv(const World& world) {
 }
 
 std::vector<Chart> charts_8_to_14(const Flown& flown) {
-    return {map_from_above(),      profile(),           triangles(flown), error(flown), times(flown),
-            by_frame_count(flown), by_threshold(flown), speed_up(flown)};
+    std::vector<Chart> charts = {map_from_above(), profile(), triangles(flown), error(flown), times(flown)};
+    if (!flown.frame_counts.empty()) charts.push_back(by_frame_count(flown));
+    if (!flown.thresholds.empty()) charts.insert(charts.end(), {by_threshold(flown), speed_up(flown)});
+    return charts;
 }
 
 std::optional<double> knee_of(const std::vector<CurvePoint>& points) {

@@ -7,6 +7,8 @@
 
 #include "tools/measure/charts.h"
 #include "tools/measure/paper/fly.h"
+#include "tools/measure/paper/held_keys.h"
+#include "tools/measure/paper/remedies.h"
 
 namespace overlook::measure::paper {
 
@@ -26,6 +28,8 @@ struct Flown {
     std::vector<Swept> thresholds, frame_counts;
     std::vector<ViewPictures> views;
     std::vector<PathPoint> path;
+    RemedyTable remedies;
+    std::vector<HeldRun> held;  // empty: not flown
 };
 inline const RunResult& high_of(const Flown& flown) {
     return flown.beside.runs[0];
@@ -42,7 +46,7 @@ std::string path_csv(const Flown& flown);
 // map.csv: the ground's heights on at most 160 x 160 points, in gnuplot's blocks.
 std::string map_csv(const World& world);
 
-// charts/figure-8-map, figure-8-profile, figure-9 .. figure-14, from those tables and frames.csv.
+// charts/figure-8-map, figure-8-profile, figure-9 .. figure-14, from those tables and frames.csv; without what was not swept.
 std::vector<Chart> charts_8_to_14(const Flown& flown);
 
 // Where a falling curve turns from steep to flat: of its points the one farthest below the straight line from the first to the

@@ -17,9 +17,11 @@ view::Camera camera_at(const Flying& flying, double time_s) {
     return view::camera_into(flying.world.transform, view::camera_at(flying.flight, time_s, base));
 }
 
-uint32_t event_frames(const RunResult& run) {
-    return uint32_t(std::count_if(run.frames.begin(), run.frames.end(),
-                                  [](const FrameRecord& frame) { return frame.counters.event_count > 0; }));
+// Keys that are drawn beside the picture are counted when they are begun, those that are the picture when they are made.
+uint32_t key_frames(const RunResult& run) {
+    auto count = [&](auto is_key) { return uint32_t(std::count_if(run.frames.begin(), run.frames.end(), is_key)); };
+    uint32_t beside = count([](const FrameRecord& frame) { return frame.counters.key_pixel_count > 0; });
+    return beside > 0 ? beside : count([](const FrameRecord& frame) { return frame.counters.event_count > 0; });
 }
 
 // The last of some frames of one method under a still camera.
@@ -64,7 +66,7 @@ double mean_ms(const RunResult& run) {
 
 Swept swept_from(const RunResult& run, const RunResult* high, double threshold_px) {
     return {family_of(run.spec), threshold_px, uint32_t(run.frames.size()),
-            event_frames(run),   mean_ms(run), high ? mean_ms(*high) : 0};
+            key_frames(run),     mean_ms(run), high ? mean_ms(*high) : 0};
 }
 
 Result<std::vector<Swept>> fly_thresholds(const Flying& flying, const Cast& cast, std::span<const double> thresholds_px,
@@ -113,10 +115,10 @@ Result<ViewPictures> draw_view(const Flying& flying, const Cast& cast, const Pla
     return pictures;
 }
 
-std::vector<PathPoint> path_of(const Flying& flying) {
+std::vector<PathPoint> path_of(const Flying& flying, uint32_t frames) {
     const terrain::Terrain& terrain = *flying.world.terrain;
     std::vector<PathPoint> path;
-    for (const view::Camera& camera : cameras_of(flying, flying.frames)) {
+    for (const view::Camera& camera : cameras_of(flying, frames)) {
         PathPoint point{camera.position_m.x, camera.position_m.y, camera.position_m.z, 0, 0, false};
         double column = std::round(point.east_m / terrain.frame.metres_per_column);
         double row = std::round(-point.north_m / terrain.frame.metres_per_row);

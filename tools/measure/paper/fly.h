@@ -33,7 +33,7 @@ Result<CourseResult> fly_beside(const Flying& flying, const Cast& cast, const st
 struct Swept {
     std::string family;
     double threshold_px = kThreshold_px;
-    uint32_t frames = 0, keyframes = 0;    // frames on which a keyframe was made
+    uint32_t frames = 0, keyframes = 0;    // frames on which a keyframe was begun or made
     double mean_ms = 0, high_mean_ms = 0;  // the latter of the high cut in the same run; 0 where it did not fly along
     double keyframe_share() const { return double(keyframes) / frames; }
     double speed_up() const { return high_mean_ms / mean_ms; }
@@ -64,11 +64,12 @@ struct ViewPictures {
 };
 Result<ViewPictures> draw_view(const Flying& flying, const Cast& cast, const PlanView& view);
 
-// Where the flight is above the ground, every frame; the ground's nearest sample below, the nearest of the border outside.
+// Where the flight is above the ground, every of so many frames; the ground's nearest sample below, the nearest of the border
+// outside.
 struct PathPoint {
     double east_m = 0, north_m = 0, height_m = 0, ground_m = 0, flown_m = 0;
     bool is_over_terrain = false;
 };
-std::vector<PathPoint> path_of(const Flying& flying);
+std::vector<PathPoint> path_of(const Flying& flying, uint32_t frames);
 
 }  // namespace overlook::measure::paper

@@ -7,6 +7,7 @@
 #include "formats/atomic_file.h"
 #include "formats/mapped_file.h"
 #include "runtime/gl/png.h"
+#include "runtime/gl/timer.h"
 #include "tools/measure/deliver.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/options.h"
@@ -21,7 +22,8 @@ struct PaperOptions {
     std::string folder, out, size = "512x512";
     std::vector<std::string> methods{"lod-sprite:paper", "lod-sprite"};
     std::vector<double> thresholds_px{0.25, 0.5, 1, 2, 4, 8};
-    uint32_t frames = 600;
+    uint32_t frames = 600, remedy_frames = 90, held_parts = 5;
+    bool has_no_sweeps = false;
 };
 
 void add_paper_options(CLI::App& verb, PaperOptions& options) {
@@ -38,6 +40,16 @@ void add_paper_options(CLI::App& verb, PaperOptions& options) {
         ->type_name("N")
         ->check(command::number_in(16, 10000))
         ->capture_default_str();
+    verb.add_option("--remedy-frames", options.remedy_frames, "Frames with each remedy switched off alone; 0 = leave them out")
+        ->type_name("N")
+        ->check(command::number_in(0, 540))
+        ->capture_default_str();
+    verb.add_option("--held-keys", options.held_parts,
+                    "Keys held over 60 frames each, for ghosts and losses against parallax; 0 = leave them out")
+        ->type_name("N")
+        ->check(command::number_in(0, 100))
+        ->capture_default_str();
+    verb.add_flag("--no-sweeps", options.has_no_sweeps, "Leave out figures 12 to 14: other numbers of frames, other thresholds");
     verb.add_option("--out", options.out, "Folder for the page, tables and pictures; made if it is not there")
         ->type_name("DIR")
         ->required();
@@ -52,41 +64,83 @@ Result<void> make_folders(const std::string& out) {
     return {};
 }
 
-// A part of the whole work, told as a share of it.
+// A part of the whole work, told as a share of it, and how long it took when it is done.
 class Part {
   public:
-    Part(command::Progress& progress, double from, double to) : progress_(progress), from_(from), to_(to) {}
-    void operator()(double share) const { progress_.set(from_ + share * (to_ - from_)); }
+    Part(command::Progress& progress, const command::Common& common, const char* name, double from, double to)
+        : progress_(progress), common_(common), name_(name), from_(from), to_(to) {}
+    ~Part() { command::detail(common_, fmt::format("reproduce: {}: {:.0f} s", name_, timer_.elapsed_ms() / 1000)); }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+    std::function<void(double)> done() {
+        return [this](double share) { progress_.set(from_ + share * (to_ - from_)); };
+    }
 
   private:
     command::Progress& progress_;
+    const command::Common& common_;
+    const char* name_;
     double from_, to_;
+    gl::Timer timer_;
 };
 
-Result<Flown> fly_all(const Flying& flying, const Plan& plan, const Cast& cast, const PaperOptions& options,
-                      command::Progress& progress) {
-    Flown flown{plan, cast, {}, step_s(flying, flying.frames), {}, {}, {}, path_of(flying)};
-    for (const PlanView& view : plan.views) {
-        Result<ViewPictures> pictures = draw_view(flying, cast, view);
+Result<void> fly_views(const Flying& flying, Flown& flown) {
+    for (const PlanView& view : flown.plan.views) {
+        Result<ViewPictures> pictures = draw_view(flying, flown.cast, view);
         if (!pictures) return tl::unexpected(pictures.error());
         flown.views.push_back(std::move(*pictures));
     }
-    Result<CourseResult> beside = fly_beside(flying, cast, Part(progress, 0.02, 0.5));
-    if (!beside) return tl::unexpected(beside.error());
-    flown.beside = std::move(*beside);
+    return {};
+}
 
-    Result<std::vector<Swept>> thresholds = fly_thresholds(flying, cast, options.thresholds_px, Part(progress, 0.5, 0.85));
-    if (!thresholds) return tl::unexpected(thresholds.error());
-    flown.thresholds = std::move(*thresholds);
+// The run at the full number of frames is one of figure 12's points.
+Result<void> fly_counts(const Flying& flying, Flown& flown, const std::function<void(double)>& done) {
+    const uint32_t counts[] = {flying.frames / 8, flying.frames / 4, flying.frames / 2, flying.frames * 2};
+    Result<std::vector<Swept>> swept = fly_frame_counts(flying, flown.cast, counts, done);
+    if (!swept) return tl::unexpected(swept.error());
+    flown.frame_counts = std::move(*swept);
+    for (const RunResult* sprite : sprites_of(flown)) flown.frame_counts.push_back(swept_from(*sprite, nullptr, kThreshold_px));
+    std::stable_sort(flown.frame_counts.begin(), flown.frame_counts.end(), [](const Swept& a, const Swept& b) {
+        return a.family != b.family ? a.family < b.family : a.frames < b.frames;
+    });
+    return {};
+}
 
-    const uint32_t counts[] = {options.frames / 8, options.frames / 4, options.frames / 2, options.frames * 2};
-    Result<std::vector<Swept>> frame_counts = fly_frame_counts(flying, cast, counts, Part(progress, 0.85, 1));
-    if (!frame_counts) return tl::unexpected(frame_counts.error());
-    flown.frame_counts = std::move(*frame_counts);
-    for (const RunResult* sprite : sprites_of(flown))
-        flown.frame_counts.insert(flown.frame_counts.end() - 1, swept_from(*sprite, nullptr, kThreshold_px));
-    std::stable_sort(flown.frame_counts.begin(), flown.frame_counts.end(),
-                     [](const Swept& a, const Swept& b) { return a.frames < b.frames; });
+// Puts what was flown where it is kept.
+template <class T>
+Result<void> keep(Result<T> flown, T& into) {
+    if (!flown) return tl::unexpected(flown.error());
+    into = std::move(*flown);
+    return {};
+}
+
+Result<Flown> fly_all(const Flying& flying, const Plan& plan, const Cast& cast, const PaperOptions& options,
+                      const command::Common& common) {
+    Flown flown{plan, cast, {}, step_s(flying, flying.frames), {}, {}, {}, path_of(flying, flying.frames), {}, {}};
+    command::Progress progress(common, "flying");
+    if (Result<void> drawn = fly_views(flying, flown); !drawn) return tl::unexpected(drawn.error());
+    Result<void> kept;
+    {
+        Part part(progress, common, "side by side", 0.02, 0.4);
+        kept = keep(fly_beside(flying, cast, part.done()), flown.beside);
+    }
+    if (kept && options.remedy_frames > 0) {
+        Part part(progress, common, "remedies", 0.4, 0.6);
+        kept = keep(fly_remedies(flying, plan, options.remedy_frames, part.done()), flown.remedies);
+    }
+    if (kept && options.held_parts > 0) {
+        Part part(progress, common, "held keys", 0.6, 0.7);
+        kept = keep(fly_held_keys(flying, plan, options.held_parts, part.done()), flown.held);
+    }
+    if (kept && !options.has_no_sweeps) {
+        Part part(progress, common, "thresholds", 0.7, 0.9);
+        kept = keep(fly_thresholds(flying, cast, options.thresholds_px, part.done()), flown.thresholds);
+    }
+    if (kept && !options.has_no_sweeps) {
+        Part part(progress, common, "numbers of frames", 0.9, 1);
+        kept = fly_counts(flying, flown, part.done());
+    }
+    if (!kept) return tl::unexpected(kept.error());
     return flown;
 }
 
@@ -94,7 +148,9 @@ Result<void> write_tables(const Flown& flown, const World& world, const std::str
     const std::pair<const char*, std::string> tables[] = {{"thresholds.csv", swept_csv(flown.thresholds)},
                                                           {"frame_counts.csv", swept_csv(flown.frame_counts)},
                                                           {"path.csv", path_csv(flown)},
-                                                          {"map.csv", map_csv(world)}};
+                                                          {"map.csv", map_csv(world)},
+                                                          {"remedies.csv", remedies_csv(flown.remedies)},
+                                                          {"held_keys.csv", held_keys_csv(flown.held)}};
     for (const auto& [name, text] : tables) {
         if (Result<void> written = write_file(out + "/" + name, std::string_view(text)); !written) return written;
     }
@@ -124,8 +180,9 @@ Result<void> deliver_paper(const Flown& flown, const World& world, const RunSetu
             if (!written) return written;
         }
     }
-    std::vector<Chart> charts = charts_8_to_14(flown);
-    Result<bool> drawn = draw_charts(charts, out);
+    std::vector<Chart> charts = charts_8_to_14(flown), all = charts, held = held_keys_charts(flown.held);
+    if (!flown.held.empty()) all.insert(all.end(), held.begin(), held.end());
+    Result<bool> drawn = draw_charts(all, out);
     if (!drawn) return tl::unexpected(drawn.error());
     if (!*drawn) command::note(common, "reproduce: gnuplot is not installed; the charts are left out");
     std::string page = paper_page_html({flown, setup, charts, pictures, *drawn});
@@ -181,8 +238,7 @@ Result<void> run_paper(const PaperOptions& options, const std::vector<std::strin
     World world = std::move(*read);  // goes before the context
     if (Result<void> uploaded = upload(world); !uploaded) return uploaded;
     Flying flying{world, context->renderer(), *flight, width_px, height_px, options.frames, options.out + "/cache"};
-    command::Progress progress(common, "flying");
-    Result<Flown> flown = fly_all(flying, *plan, *cast, options, progress);
+    Result<Flown> flown = fly_all(flying, *plan, *cast, options, common);
     if (!flown) return tl::unexpected(flown.error());
     if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
 

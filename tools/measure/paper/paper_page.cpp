@@ -9,10 +9,20 @@
 #include "tools/measure/page.h"
 #include "tools/measure/page_style.h"
 #include "tools/measure/page_text.h"
+#include "tools/measure/paper/page_sections.h"
 #include "tools/measure/paper/targets.h"
 
 namespace overlook::measure::paper {
 namespace {
+
+constexpr char kPaperStyle[] = R"(.numbers td:last-child { text-align: right; min-width: 0; white-space: nowrap; }
+.numbers .said td { text-align: left; white-space: normal; padding: 0 9px 10px; color: #4a545c; }
+.numbers tr:has(+ .said) > * { border-bottom: none; }
+.runs thead th:first-child:empty { min-width: 9em; }
+.four { display: grid; grid-template-columns: repeat(4, 1fr); gap: 10px; }
+.four figure { margin: 0 0 0.6em; }
+@media (max-width: 640px) { .four { grid-template-columns: 1fr 1fr; } }
+)";
 
 struct Difference {
     std::vector<float> map;  // [height, width], kDifferenceGain times
@@ -40,19 +50,18 @@ FigurePicture difference_picture(const std::string& name, const std::string& wha
             error_picture(difference.map, a.width, a.height)};
 }
 
-std::string row(const std::vector<std::string>& cells, const char* tag, const std::string& attributes = "") {
-    std::string html = "<tr" + attributes + ">";
-    for (size_t i = 0; i < cells.size(); ++i)
-        html += i == 0 ? "<th scope=\"row\">" + cells[i] + "</th>" : fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
-    return html + "</tr>\n";
+// What is to be said of a target, or nothing.
+std::string said_of(const Target& target) {
+    std::string text = escaped(target.note);
+    if (!target.why.empty()) text += (text.empty() ? "" : ". ") + ("<strong>Missed:</strong> " + escaped(target.why));
+    return text;
 }
 
 std::string targets_html(const Flown& flown) {
-    std::vector<std::string> head = {"figure", "paper", "to reach"};
+    std::vector<std::string> head = {"", "paper", "to reach"};
     for (const RunResult* sprite : sprites_of(flown)) head.push_back(escaped(family_of(sprite->spec)));
-    head.push_back("");
-    std::string html = "<h2>Figures to reach</h2>\n<div class=\"wide\"><table class=\"runs\">\n<thead>" + row(head, "th") +
-                       "</thead>\n<tbody>\n";
+    std::string html = "<h2>Figures to reach</h2>\n<div class=\"wide\"><table class=\"runs numbers\">\n<thead>" +
+                       table_row(head, "th") + "</thead>\n<tbody>\n";
     for (const Target& target : targets_of(flown)) {
         std::vector<std::string> cells = {escaped(target.name), escaped(target.printed),
                                           (target.is_at_least ? "&ge; " : "&le; ") + short_number(target.goal)};
@@ -64,18 +73,17 @@ std::string targets_html(const Flown& flown) {
             else
                 cells.push_back("<strong class=\"broken\">" + short_number(*target.measured[i]) + "</strong>");
         }
-        cells.push_back(escaped(target.note));
-        html += row(cells, "td");
+        html += table_row(cells, "td") + said_row(said_of(target), cells.size());
     }
     return html +
-           "</tbody></table></div>\n<p class=\"note\">Red: missed. Ghosts and losses against parallax are judged by the "
-           "stability "
-           "suite (S05), not here.</p>\n";
+           "</tbody></table></div>\n<p class=\"note\">Red: missed; the reason is the last method's, from this run's "
+           "numbers.</p>\n";
 }
 
 std::string runs_html(const Flown& flown) {
     std::string html =
-        "<h2>The runs</h2>\n<div class=\"wide\"><table class=\"runs\">\n<thead><tr><th>run</th><th>mean ms</th><th>p50 ms</th>"
+        "<h2>The runs</h2>\n<div class=\"wide\"><table class=\"runs numbers\">\n<thead><tr><th>run</th><th>mean ms</th><th>p50 "
+        "ms</th>"
         "<th>p99 ms</th><th>slowest ms</th><th>triangles, mean</th><th>keyframes</th><th>E p99</th><th>W p99</th>"
         "<th>holes px</th></tr></thead>\n<tbody>\n";
     for (const RunResult& run : flown.beside.runs) {
@@ -85,7 +93,7 @@ std::string runs_html(const Flown& flown) {
             triangles += double(frame.counters.triangle_count) / double(run.frames.size());
         std::string label = escaped(run.label);
         for (size_t at = label.find('@'); at != std::string::npos; at = label.find('@', at + 6)) label.insert(at, "<wbr>");
-        html += row(
+        html += table_row(
             {label, short_number(mean_ms(run)), short_number(times_ms.p50), short_number(times_ms.p99),
              short_number(times_ms.max), short_count(triangles), short_count(swept_from(run, nullptr, kThreshold_px).keyframes),
              short_number(percentiles_of(run, "e_p99_flip").p99), short_number(percentiles_of(run, "w_luma").p99),
@@ -109,7 +117,7 @@ std::string views_html(const PaperPage& page) {
         html += fmt::format(
             "<section>\n<h3>Figure {}</h3>\n<p>Frame {:.0f} of the flight. The paper counts {} triangles in its high cut and {} "
             "in "
-            "its low one; here they are {} and {}.</p>\n<div class=\"three\">\n",
+            "its low one; here they are {} and {}.</p>\n<div class=\"four\">\n",
             view.view.figure, view.view.time_s / page.flown.step_s, short_count(view.view.high_triangle_count),
             short_count(view.view.low_triangle_count), short_count(double(view.high.triangle_count)),
             short_count(double(view.low.triangle_count)));
@@ -182,11 +190,10 @@ std::string times_text(const Flown& flown) {
 
 std::string sentence_of(const std::string& chart, const Flown& flown) {
     if (chart == "figure-9") {
-        return fmt::format(
-            "The high cut has {} triangles a frame in the mean, {} times the low one's; the paper's about 100 times.",
-            short_count(percentiles_of(high_of(flown), "triangles").p50),
-            short_number(percentiles_of(high_of(flown), "triangles").p50 /
-                         std::max(1.0, percentiles_of(low_of(flown), "triangles").p50)));
+        return fmt::format("The high cut's median frame has {} triangles, {} times the low one's; the paper's about 100 times.",
+                           short_count(percentiles_of(high_of(flown), "triangles").p50),
+                           short_number(percentiles_of(high_of(flown), "triangles").p50 /
+                                        std::max(1.0, percentiles_of(low_of(flown), "triangles").p50)));
     }
     if (chart == "figure-10")
         return "What each method holds against its threshold; a keyframe takes it back. " + keyframe_text(flown);
@@ -201,11 +208,7 @@ std::string charts_html(const PaperPage& page) {
     std::string html = "<h2>Figures 8 to 14</h2>\n";
     if (!page.has_charts) return html + "<p class=\"note\">gnuplot was not installed; the scripts lie in charts/.</p>\n";
     for (const Chart& chart : page.charts) {
-        html += fmt::format(
-            "<figure>\n<h3>{1}</h3>\n<picture><source media=\"(max-width: 640px)\" srcset=\"charts/{0}-narrow.svg\"><img "
-            "src=\"charts/{0}.svg\" alt=\"{1}\" width=\"900\" height=\"540\"></picture>\n<figcaption>{2} <a "
-            "href=\"charts/{0}.png\">PNG</a></figcaption>\n</figure>\n",
-            chart.name, escaped(chart.title), escaped(sentence_of(chart.name, page.flown)));
+        html += chart_html(chart.name, chart.title, sentence_of(chart.name, page.flown));
     }
     return html;
 }
@@ -252,8 +255,9 @@ std::string paper_page_html(const PaperPage& page) {
     std::string title = "LOD-sprite: section 4 of the paper, run anew";
     return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width, initial-scale=1\">\n<title>" +
-           title + "</title>\n<style>\n" + kPageStyle + "</style>\n</head>\n<body>\n<main>\n<h1>" + title + "</h1>\n" +
-           setup_html(page) + targets_html(page.flown) + runs_html(page.flown) + views_html(page) + charts_html(page) +
+           title + "</title>\n<style>\n" + kPageStyle + kPaperStyle + "</style>\n</head>\n<body>\n<main>\n<h1>" + title +
+           "</h1>\n" + setup_html(page) + targets_html(page.flown) + runs_html(page.flown) + remedies_html(page.flown.remedies) +
+           held_keys_html(page.flown.held, page.has_charts) + views_html(page) + charts_html(page) +
            "</main>\n</body>\n</html>\n";
 }
 
