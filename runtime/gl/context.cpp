@@ -17,6 +17,15 @@ namespace overlook::gl {
 namespace {
 
 constexpr int kNeededVersion = 45;
+constexpr EGLint kAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                  4,
+                                  EGL_CONTEXT_MINOR_VERSION,
+                                  5,
+                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                  EGL_CONTEXT_OPENGL_DEBUG,
+                                  EGL_TRUE,
+                                  EGL_NONE};
 
 std::string text_of(GLenum name) {
     const GLubyte* text = glGetString(name);
@@ -111,17 +120,8 @@ Result<Context> Context::on_display(void* display) {
     if (!has_extension(extensions, "EGL_KHR_surfaceless_context") || !has_extension(extensions, "EGL_KHR_no_config_context")) {
         return impossible("EGL has no contexts without a surface");
     }
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG,
-                                 EGL_TRUE,
-                                 EGL_NONE};
     if (!eglBindAPI(EGL_OPENGL_API)) return impossible("EGL has no desktop OpenGL");
-    made.context_ = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    made.context_ = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes);
     if (made.context_ == EGL_NO_CONTEXT) return impossible("the renderer has no OpenGL 4.5");
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, made.context_)) return impossible("EGL refuses the context");
 
@@ -174,6 +174,36 @@ Context::~Context() {
     if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
     // The display stays: it belongs to the whole process, and another context may live on it.
+}
+
+namespace {
+
+class SecondEglContext : public SecondContext {
+  public:
+    SecondEglContext(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+    ~SecondEglContext() override { eglDestroyContext(display_, context_); }
+    // Which API a thread means is a matter of the thread.
+    bool make_current() override {
+        return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    }
+    void release() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
+  private:
+    EGLDisplay display_;
+    EGLContext context_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<SecondContext>> second_context() {
+    // As above: libepoxy must not be asked for a library that is not there.
+    bool has_egl = dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL) != nullptr;
+    EGLContext beside = has_egl ? eglGetCurrentContext() : EGL_NO_CONTEXT;
+    if (beside == EGL_NO_CONTEXT) return impossible("this renderer has no second context: EGL's is not the current one");
+    EGLDisplay display = eglGetCurrentDisplay();
+    EGLContext made = eglCreateContext(display, EGL_NO_CONFIG_KHR, beside, kAttributes);
+    if (made == EGL_NO_CONTEXT) return impossible("this renderer has no second context: EGL refuses one that shares its objects");
+    return std::make_unique<SecondEglContext>(display, made);
 }
 
 }  // namespace overlook::gl

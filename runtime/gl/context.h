@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -67,5 +68,19 @@ class Context {
     void* context_ = nullptr;
     Renderer renderer_;
 };
+
+// A context that shares textures, buffers and programs (framebuffers and vertex arrays not) with the one beside which it was
+// made, for one other thread. It must not be current anywhere when it goes, and goes before the other.
+class SecondContext {
+  public:
+    virtual ~SecondContext() = default;
+    virtual bool make_current() = 0;  // in the calling thread
+    virtual void release() = 0;       // from it
+};
+using SecondContextMaker = std::function<Result<std::unique_ptr<SecondContext>>()>;
+
+// Beside the current context, which must be of a Context. Fails with Exit::impossible:
+// "this renderer has no second context: EGL's is not the current one".
+Result<std::unique_ptr<SecondContext>> second_context();
 
 }  // namespace overlook::gl

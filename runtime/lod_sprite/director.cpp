@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint32_t kHurriedSlices = 6;  // of a key that is missing
 constexpr uint32_t kLeastSlices = 4;
+constexpr uint32_t kSoon = 12;        // frames: while a key waits for its turn, another is begun only if both end sooner
 constexpr double kRest = 0.7;         // a key whose error keeps under this share of the limit as far as one can see may rest
 constexpr double kMostLost = 0.3;     // of the frame: a key that has less to show is not looked into
 constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
@@ -45,11 +46,27 @@ double Director::most_error_px() const {
 }
 
 double Director::key_cut_px() const {
-    return std::min(settings_.error_px, settings_.key_error_px / kRoom) * spending_.keys_coarser();
+    double shown_px = std::max(settings_.error_px, settings_.texel_share / settings_.scale);
+    return std::min(shown_px, settings_.key_error_px / kRoom) * spending_.keys_coarser();
 }
 
 bool Director::serves(const Reuse& reuse) const {
     return reuse.error_p99_px <= most_error_px() && reuse.magnification_p99 <= settings_.most_magnified;
+}
+
+void Director::take_over(uint32_t slot, const Reuse& reuse) {
+    if (slots_[slot].is_fresh) {
+        if (has_taken_over_) life_frames_ = 0.5 * (life_frames_ + double(age_frames_));
+        has_taken_over_ = true;
+        age_frames_ = 0;
+        took_over_ = slots_[slot].cause;
+        slots_[slot].is_fresh = false;
+    }
+    before_ = current_;
+    current_ = slot;
+    current_reuse_ = reuse;
+    fade_left_ = before_ ? settings_.fade_frames : 0;
+    is_cut_ = false;
 }
 
 // A key from the cache, where the one in use no longer serves and another does: going to and fro costs nothing.
@@ -58,23 +75,27 @@ void Director::judge_keys() {
     current_reuse_ = reuse(*current_, camera_);
     if (serves(current_reuse_)) return;
     for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
-        if (slot == *current_ || !slots_[slot].is_whole || (making_ && making_->slot == slot)) continue;
+        if (slot == *current_ || !slots_[slot].is_whole) continue;
         Reuse other = reuse(slot, camera_);
-        if (!serves(other)) continue;
-        before_ = current_;
-        current_ = slot;
-        current_reuse_ = other;
-        fade_left_ = settings_.fade_frames;
-        return;
+        if (serves(other)) return take_over(slot, other);
     }
 }
 
-// How many frames the key in use will go on to serve if the camera goes on as it does; most_slices if for long.
+// Does any key that is whole serve this camera? The one in use is asked first.
+bool Director::is_served(const view::Camera& camera) const {
+    if (current_ && serves(reuse(*current_, camera))) return true;
+    for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
+        if (slots_[slot].is_whole && slot != current_ && serves(reuse(slot, camera))) return true;
+    }
+    return false;
+}
+
+// How many frames the keys at hand will go on to serve if the camera goes on as it does; most_slices if for long.
 uint32_t Director::frames_left() const {
     if (!current_ || !serves(current_reuse_)) return 0;
     uint32_t left = 0;
     for (uint32_t frames = 2; frames <= settings_.most_slices; frames = std::max(frames + 1, frames * 3 / 2)) {
-        if (!serves(reuse(*current_, track_.predicted(frames)))) return std::max(left, kLeastSlices);
+        if (!is_served(track_.predicted(frames))) return std::max(left, kLeastSlices);
         left = frames;
     }
     return settings_.most_slices;
@@ -94,7 +115,7 @@ Cause Director::cause_now() const {
     return current_reuse_.outside_share > current_reuse_.opened_share ? Cause::turned : Cause::error;
 }
 
-// The place of the key that would serve the camera least, none of those in use.
+// The place of the key that would serve the camera least, none of those in use, and one that waits for its time last of all.
 uint32_t Director::slot_to_empty() const {
     uint32_t worst = 0;
     double worst_error = -1;
@@ -103,7 +124,7 @@ uint32_t Director::slot_to_empty() const {
         bool is_used = waiting_ == slot || (current_ && *current_ == slot) || (before_ && *before_ == slot && slots_.size() > 2);
         if (is_used) continue;
         Reuse found = reuse(slot, camera_);
-        double error = found.error_p99_px + 1000 * found.lost_share();
+        double error = slots_[slot].is_fresh ? 0 : found.error_p99_px + 1000 * found.lost_share();
         if (error > worst_error) {
             worst = slot;
             worst_error = error;
@@ -116,7 +137,7 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     uint32_t slot = slot_to_empty();
     if (before_ && *before_ == slot) before_.reset();
     Slot& into = slots_[slot];
-    into.is_whole = false;
+    into.is_whole = into.is_fresh = false;
     into.cause = cause;
     into.key.camera = key_camera(pose, settings_.guard);
     into.key.scale = settings_.scale;
@@ -124,7 +145,7 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     making_.emplace();
     making_->slot = slot;
     making_->cause = cause;
-    making_->cut.emplace(refiner_, into.key.camera, into.key.error_px);
+    if (settings_.mode != KeyMode::thread) making_->cut.emplace(refiner_, into.key.camera, into.key.error_px);
 }
 
 // Whether a budget is all used, for keys as fresh as there are triangles for. A camera that stands still needs no fresh ones.
@@ -156,47 +177,39 @@ uint64_t Director::slice_triangles() {
     return std::min(wanted, most);
 }
 
-std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
-    bool has_jumped = false;
-    if (!is_begun_) {
-        is_begun_ = true;
-        camera_ = camera;
-        has_jumped = track_.add(camera);
-        slice_triangles_ = 0;
-        took_over_ = Cause::none;
-        judge_keys();
-        if (waiting_) {
-            take_over(*waiting_, reuse(*waiting_, camera_), slots_[*waiting_].cause);
-            waiting_.reset();
-        }
-        if (spending_.is_limited()) cut_coarse();
-        is_cut_ = spending_.is_limited();
-    } else if (!spends_all() || !spending_.is_much_left(slice_triangles_)) {
-        return std::nullopt;
-    }
+// The paper's rule for a prediction that went wrong: use it where it is nearer than the old key, else begin anew.
+void Director::drop_wrong_key(bool has_jumped) {
+    const view::Camera& aim = slots_[making_->slot].key.camera;
+    double aim_off_m = glm::length(aim.position_m - camera_.position_m);
+    double old_off_m = current_ ? glm::length(slots_[*current_].key.camera.position_m - camera_.position_m) : aim_off_m;
+    double speed_m = track_.speed_m() * settings_.most_slices;
+    bool is_wrong = aim_off_m > old_off_m && aim_off_m > 2 * speed_m;
+    if (is_wrong || has_jumped) making_.reset();
+}
 
-    bool is_served = current_ && serves(current_reuse_);
-    if (making_ && !is_served) {
-        // The paper's rule for a prediction that went wrong: use it where it is nearer than the old key, else begin anew.
-        const view::Camera& aim = slots_[making_->slot].key.camera;
-        double aim_off_m = glm::length(aim.position_m - camera.position_m);
-        double old_off_m = current_ ? glm::length(slots_[*current_].key.camera.position_m - camera.position_m) : aim_off_m;
-        double speed_m = track_.speed_m() * settings_.most_slices;
-        bool is_wrong = aim_off_m > old_off_m && aim_off_m > 2 * speed_m;
-        if (is_wrong || has_jumped) making_.reset();
+// Begins a key if one is due.
+bool Director::is_key_begun() {
+    bool is_served_now = current_ && serves(current_reuse_);
+    if (settings_.mode == KeyMode::at_once) {
+        if (is_served_now) return false;
+        begin_key(camera_, cause_now());
+        return true;
     }
-    if (!making_) {
-        if (settings_.mode == KeyMode::at_once) {
-            if (is_served) return std::nullopt;
-            begin_key(camera, cause_now());
-        } else {
-            uint32_t left = frames_left();
-            if (left >= settings_.most_slices && may_rest() && !spends_all()) return std::nullopt;
-            uint32_t slices = frames_to_make(left);
-            begin_key(track_.predicted(kAimAhead * slices), is_served ? Cause::error : cause_now());
-            making_->frames_to_go = slices;
-        }
+    uint32_t left = frames_left();
+    if (left >= settings_.most_slices && may_rest() && !spends_all()) return false;
+    bool has_next = std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.is_whole && slot.is_fresh; });
+    if (has_next && left > kSoon && !spends_all()) return false;
+    uint32_t frames = frames_to_make(left);
+    if (settings_.mode == KeyMode::thread) {
+        if (left > kThreadFrames) return false;
+        frames = kThreadFrames;
     }
+    begin_key(track_.predicted(kAimAhead * frames), is_served_now ? Cause::error : cause_now());
+    making_->frames_to_go = frames;
+    return true;
+}
+
+std::optional<KeyWork> Director::slice_work() {
     uint64_t wanted = slice_triangles();
     making_->cut->next(wanted, slice_);
     slice_triangles_ += slice_.triangle_count();
@@ -206,15 +219,58 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
     if (!making_->is_begun) work.begin = &slots_[making_->slot].key.camera;
     making_->is_begun = true;
     work.slice = &slice_;
+    work.error_px = slots_[making_->slot].key.error_px;
     work.is_last = making_->cut->is_done();
     return work;
 }
 
-void Director::key_done(DepthGrid depths) {
+// To the other thread in the frame it begins in, back from it kThreadFrames later.
+std::optional<KeyWork> Director::thread_work() {
+    KeyWork work;
+    work.slot = making_->slot;
+    work.error_px = slots_[making_->slot].key.error_px;
+    if (!making_->is_begun) {
+        making_->is_begun = true;
+        work.begin = &slots_[making_->slot].key.camera;
+        return work;
+    }
+    if (--making_->frames_to_go > 0) return std::nullopt;
+    work.is_last = true;
+    return work;
+}
+
+// Whether the camera has jumped.
+bool Director::begin_frame(const view::Camera& camera) {
+    is_begun_ = true;
+    camera_ = camera;
+    bool has_jumped = track_.add(camera);
+    slice_triangles_ = 0;
+    took_over_ = Cause::none;
+    judge_keys();
+    if (waiting_ && waiting_ != current_) take_over(*waiting_, reuse(*waiting_, camera_));
+    waiting_.reset();
+    if (spending_.is_limited()) cut_coarse();
+    is_cut_ = spending_.is_limited();
+    return has_jumped;
+}
+
+std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
+    bool has_jumped = false;
+    if (!is_begun_)
+        has_jumped = begin_frame(camera);
+    else if (!spends_all() || !spending_.is_much_left(slice_triangles_))
+        return std::nullopt;
+    if (making_ && !(current_ && serves(current_reuse_))) drop_wrong_key(has_jumped);
+    if (!making_ && !is_key_begun()) return std::nullopt;
+    return settings_.mode == KeyMode::thread ? thread_work() : slice_work();
+}
+
+void Director::key_done(DepthGrid depths, uint64_t triangle_count) {
     assert(making_);
+    if (settings_.mode == KeyMode::thread) making_->drawn_triangles = slice_triangles_ = triangle_count;
     Slot& slot = slots_[making_->slot];
     slot.key.depths = std::move(depths);
-    slot.is_whole = true;
+    slot.is_whole = slot.is_fresh = true;
     slot.triangle_count = expected_triangles_ = making_->drawn_triangles;
     ++keys_made_;
     Reuse made = reuse(making_->slot, camera_);
@@ -225,21 +281,9 @@ void Director::key_done(DepthGrid depths) {
         if (current_ && spends_all())
             waiting_ = making_->slot;
         else
-            take_over(making_->slot, made, making_->cause);
+            take_over(making_->slot, made);
     }
     making_.reset();
-}
-
-void Director::take_over(uint32_t slot, const Reuse& made, Cause cause) {
-    if (has_taken_over_) life_frames_ = 0.5 * (life_frames_ + double(age_frames_));
-    has_taken_over_ = true;
-    age_frames_ = 0;
-    is_cut_ = false;
-    before_ = current_;
-    current_ = slot;
-    current_reuse_ = made;
-    fade_left_ = before_ ? settings_.fade_frames : 0;
-    took_over_ = cause;
 }
 
 // Of the coarse cut's triangles those all of whose corners are near come first.

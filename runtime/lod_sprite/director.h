@@ -14,17 +14,22 @@ namespace overlook::lod_sprite {
 
 enum class KeyMode {
     at_once,  // in the frame that needs it, for that frame's own pose
+    thread,   // beside the frames, by another thread, for a predicted pose; kThreadFrames later it is there, or is waited for
     sliced,   // over the frames before, for a predicted pose
 };
 
+// A key begun beside frame n is looked into from frame n + kThreadFrames on, however long it took.
+constexpr uint32_t kThreadFrames = 8;
+
 struct Settings {
-    double error_px = 1;          // the promise of the fine cut, which keys show
+    double error_px = 1;          // the promise of the fine cut; keys show it as far as their texels can (Director::key_cut_px)
     double low_error_px = 16;     // of the coarse cut of novel frames
     double key_error_px = 1;      // a new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it
     double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
     double guard = 1.15;
-    uint32_t scale = 2;  // texels of a key a pixel, in both directions
-    uint32_t slots = 4;  // keys kept, the one being made among them; at least 2
+    uint32_t scale = 2;         // texels of a key a pixel, in both directions
+    double texel_share = 0.25;  // keys keep no finer promise than so much of a texel, which could not show it; 0 = error_px
+    uint32_t slots = 4;         // keys kept, the one being made among them; at least 2
     uint32_t most_slices = 48;
     uint32_t fade_frames = 8;  // over which a new key takes over from the old; 0 = at once
     double morph = 0;          // of the coarse cut (terrain::Refiner::cut_by_pixels)
@@ -41,8 +46,9 @@ enum class Cause { none, first, jump, error, magnified, turned };
 struct KeyWork {
     uint32_t slot = 0;
     const view::Camera* begin = nullptr;  // not null: the slot is emptied for this camera first
-    const terrain::Cut* slice = nullptr;  // what to add to it
-    bool is_last = false;                 // the key is whole then; Director::key_done() is to be told
+    const terrain::Cut* slice = nullptr;  // what to add to it; null where another thread is to draw the whole of it
+    double error_px = 0;                  // what the key's whole cut promises its camera
+    bool is_last = false;                 // the key is whole then, or to be waited for; Director::key_done() is to be told
 };
 
 struct NovelUse {
@@ -73,20 +79,22 @@ class Director {
     // leaves triangles for the next key as well. The camera's size must stay the same, or forget() be called. The pointers hold
     // until the next call.
     std::optional<KeyWork> key_work(const view::Camera& camera);
-    void key_done(DepthGrid depths);
+    // triangle_count: of a key that another thread drew.
+    void key_done(DepthGrid depths, uint64_t triangle_count = 0);
     const Novel& novel();
     void forget();
     // From the next frame on, instead of Settings::triangles.
     void set_triangles(double triangles) { spending_.set_triangles(triangles); }
 
     const Settings& settings() const { return settings_; }
-    double key_cut_px() const;  // what keys promise at their own pose
+    // What keys promise at their own pose: error_px, or texel_share of a texel where that is more.
+    double key_cut_px() const;
     uint64_t keys_made() const { return keys_made_; }
     uint64_t key_triangles() const { return slice_triangles_; }  // of this frame's key work
 
   private:
     struct Slot {
-        bool is_whole = false;
+        bool is_whole = false, is_fresh = false;  // fresh: no frame looked into it yet
         Key key;
         Cause cause = Cause::none;
         uint64_t triangle_count = 0;
@@ -101,11 +109,17 @@ class Director {
     };
 
     void judge_keys();
+    void take_over(uint32_t slot, const Reuse& reuse);
+    void drop_wrong_key(bool has_jumped);
+    bool is_key_begun();
+    std::optional<KeyWork> slice_work();
+    std::optional<KeyWork> thread_work();
     Reuse reuse(uint32_t slot, const view::Camera& camera) const;
     double most_error_px() const;
     bool spends_all() const;
     uint32_t frames_to_make(uint32_t left);
     bool serves(const Reuse& reuse) const;
+    bool is_served(const view::Camera& camera) const;
     bool may_rest() const;
     uint32_t frames_left() const;
     Cause cause_now() const;
@@ -115,7 +129,7 @@ class Director {
     bool shows_key() const;
     void cut_coarse();
     void put_near_first();
-    void take_over(uint32_t slot, const Reuse& made, Cause cause);
+    bool begin_frame(const view::Camera& camera);
 
     const terrain::Refiner& refiner_;
     Settings settings_;

@@ -31,18 +31,63 @@ glm::vec3 as_floats(const glm::dvec3& v) {
 
 }  // namespace
 
+Result<gl::Framebuffer> framebuffer_of(const KeyPicture& picture) {
+    GLuint id = 0;
+    glCreateFramebuffers(1, &id);
+    gl::Framebuffer framebuffer(id);
+    glNamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, picture.colour, 0);
+    glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, picture.depth, 0);
+    if (glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return impossible("this renderer cannot draw keys of {} x {} pixels", picture.drawn_camera.width_px,
+                          picture.drawn_camera.height_px);
+    }
+    return framebuffer;
+}
+
+void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface) {
+    gl::bind_for_drawing(framebuffer.id(), picture.drawn_camera.width_px, picture.drawn_camera.height_px);
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    surface.draw_background(picture.drawn_camera);
+}
+
+DepthGrid read_depth(const KeyPicture& picture, uint32_t step) {
+    uint32_t width_px = picture.drawn_camera.width_px, height_px = picture.drawn_camera.height_px;
+    std::vector<float> all(size_t(width_px) * height_px);
+    glGetTextureImage(picture.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(all.size() * sizeof(float)), all.data());
+    DepthGrid grid{(width_px + step - 1) / step, (height_px + step - 1) / step, {}};
+    grid.depth_m.reserve(size_t(grid.width) * grid.height);
+    auto middle = [](uint32_t cell, uint32_t cells, uint32_t side_px) {
+        return size_t((2 * uint64_t(cell) + 1) * side_px / (2 * uint64_t(cells)));
+    };
+    for (uint32_t y = 0; y < grid.height; ++y)
+        for (uint32_t x = 0; x < grid.width; ++x) {
+            size_t row = height_px - 1 - middle(y, grid.height, height_px);
+            float inverse = all[row * width_px + middle(x, grid.width, width_px)];
+            grid.depth_m.push_back(inverse > 0 ? float(picture.camera.near_m) / inverse : std::numeric_limits<float>::infinity());
+        }
+    return grid;
+}
+
+Result<gl::Program> key_program(const gl::Surface& surface) {
+    return surface.program({"key", "", shaders::kKeyMain});
+}
+
 Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots) {
     Painter made;
     made.sprites_.resize(slots);
-    Result<gl::Program> key = surface.program({"key", "", shaders::kKeyMain});
+    Result<gl::Program> key = key_program(surface);
     if (!key) return tl::unexpected(key.error());
     made.key_program_ = std::move(*key);
     return made;
 }
 
-Result<void> Painter::begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale) {
+Result<KeyPicture> Painter::reserve_key(uint32_t slot, const view::Camera& camera, uint32_t scale) {
     Sprite& sprite = sprites_[slot];
     uint32_t width_px = camera.width_px * scale, height_px = camera.height_px * scale;
+    KeyPicture picture{camera, camera, sprite.colour.id(), sprite.depth.id()};
+    picture.drawn_camera.width_px = width_px;
+    picture.drawn_camera.height_px = height_px;
     if (sprite.width_px != width_px || sprite.height_px != height_px) {
         GLint most_px = 0;
         glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
@@ -52,25 +97,22 @@ Result<void> Painter::begin_key(uint32_t slot, gl::Surface& surface, const view:
         }
         sprite.colour = make_texture(GL_RGBA8, width_px, height_px);
         sprite.depth = make_texture(GL_DEPTH_COMPONENT32F, width_px, height_px);
-        GLuint id = 0;
-        glCreateFramebuffers(1, &id);
-        sprite.framebuffer = gl::Framebuffer(id);
-        glNamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, sprite.colour.id(), 0);
-        glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, sprite.depth.id(), 0);
-        if (glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-            return impossible("this renderer cannot draw keys of {} x {} pixels", width_px, height_px);
-        }
+        picture.colour = sprite.colour.id();
+        picture.depth = sprite.depth.id();
+        Result<gl::Framebuffer> framebuffer = framebuffer_of(picture);
+        if (!framebuffer) return tl::unexpected(framebuffer.error());
+        sprite.framebuffer = std::move(*framebuffer);
         sprite.width_px = width_px;
         sprite.height_px = height_px;
     }
-    sprite.camera = camera;
-    sprite.drawn_camera = camera;
-    sprite.drawn_camera.width_px = width_px;
-    sprite.drawn_camera.height_px = height_px;
-    gl::bind_for_drawing(sprite.framebuffer.id(), width_px, height_px);
-    const GLfloat farthest = 0;
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
-    surface.draw_background(sprite.drawn_camera);
+    sprite.picture = picture;
+    return picture;
+}
+
+Result<void> Painter::begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale) {
+    Result<KeyPicture> picture = reserve_key(slot, camera, scale);
+    if (!picture) return tl::unexpected(picture.error());
+    begin_picture(sprites_[slot].framebuffer, *picture, surface);
     return {};
 }
 
@@ -78,25 +120,7 @@ void Painter::draw_into_key(uint32_t slot, gl::Surface& surface) {
     const Sprite& sprite = sprites_[slot];
     gl::bind_for_drawing(sprite.framebuffer.id(), sprite.width_px, sprite.height_px);
     key_program_.use();
-    surface.draw(key_program_, sprite.drawn_camera);
-}
-
-DepthGrid Painter::read_depth(uint32_t slot, uint32_t step) const {
-    const Sprite& sprite = sprites_[slot];
-    std::vector<float> all(size_t(sprite.width_px) * sprite.height_px);
-    glGetTextureImage(sprite.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(all.size() * sizeof(float)), all.data());
-    DepthGrid grid{(sprite.width_px + step - 1) / step, (sprite.height_px + step - 1) / step, {}};
-    grid.depth_m.reserve(size_t(grid.width) * grid.height);
-    auto middle = [](uint32_t cell, uint32_t cells, uint32_t side_px) {
-        return size_t((2 * uint64_t(cell) + 1) * side_px / (2 * uint64_t(cells)));
-    };
-    for (uint32_t y = 0; y < grid.height; ++y)
-        for (uint32_t x = 0; x < grid.width; ++x) {
-            size_t row = sprite.height_px - 1 - middle(y, grid.height, sprite.height_px);
-            float inverse = all[row * sprite.width_px + middle(x, grid.width, sprite.width_px)];
-            grid.depth_m.push_back(inverse > 0 ? float(sprite.camera.near_m) / inverse : std::numeric_limits<float>::infinity());
-        }
-    return grid;
+    surface.draw(key_program_, sprite.picture.drawn_camera);
 }
 
 Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const NovelOptions& options, Pass pass) {
@@ -124,13 +148,13 @@ void Painter::set_uniforms(const gl::Program& program, const view::Camera& camer
                            bool raises) const {
     for (size_t i = 0; i < options.keys.size(); ++i) {
         const Sprite& sprite = sprites_[options.keys[i].slot];
-        Link link = link_of(sprite.camera, camera);
+        Link link = link_of(sprite.picture.camera, camera);
         glm::mat3 rotation(link.key_from_world);
         auto at = [&](const char* uniform) { return program.at(fmt::format("{}[{}]", uniform, i).c_str()); };
         glUniformMatrix3fv(at("key_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
         glUniform3fv(at("eye_in_key_m"), 1, glm::value_ptr(as_floats(link.eye_m)));
         glUniform2f(at("key_tangents"), float(link.tangents.x), float(link.tangents.y));
-        glUniform1f(at("key_near_m"), float(sprite.camera.near_m));
+        glUniform1f(at("key_near_m"), float(sprite.picture.camera.near_m));
         glUniform1f(at("key_weights"), float(options.keys[i].weight));
         glBindTextureUnit(kColourUnit + GLuint(i), sprite.colour.id());
         glBindTextureUnit(kDepthUnit + GLuint(i), sprite.depth.id());

@@ -44,20 +44,37 @@ struct NovelOptions {
     bool is_mask = false;  // the red channel is a mask, the others are 0, and there is no background; for one sample a pixel
 };
 
+// Where a key is drawn: textures of one context or of several that share them.
+struct KeyPicture {
+    view::Camera camera, drawn_camera;  // the second with the texels' size
+    GLuint colour = 0, depth = 0;
+};
+
+// What is drawn into from now on in this context: the picture's textures, through a framebuffer made for them. Fails with
+// Exit::impossible if the renderer cannot.
+Result<gl::Framebuffer> framebuffer_of(const KeyPicture& picture);
+// Empties the picture but for the surface's background. framebuffer: of framebuffer_of().
+void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface);
+// The picture's depths (metres along its axis, infinity = nothing) in the middle of each cell of a grid over it, from the top; a
+// cell is at most `step` texels wide and high. Waits until they are drawn.
+DepthGrid read_depth(const KeyPicture& picture, uint32_t step);
+// The program that key pictures are drawn with. Fails with Exit::our_bug where it does not compile.
+Result<gl::Program> key_program(const gl::Surface& surface);
+
 // Draws into keys and novel frames. A context must be current whenever it is used, and when it goes.
 class Painter {
   public:
     // slots: how many keys are kept. Fails with Exit::our_bug where a shader does not compile.
     static Result<Painter> make(const gl::Surface& surface, uint32_t slots);
 
-    // Empties a slot, but for the surface's background, for a key of this camera, whose picture has camera.width_px * scale
-    // columns. Fails with Exit::impossible where the renderer cannot have such a picture.
+    // Makes room in a slot for a key of this camera, whose picture has camera.width_px * scale columns. Fails with
+    // Exit::impossible where the renderer cannot have such a picture.
+    Result<KeyPicture> reserve_key(uint32_t slot, const view::Camera& camera, uint32_t scale);
+    // The same, and empties it but for the surface's background.
     Result<void> begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale);
     // Adds what the surface draws now, as the key's camera sees it.
     void draw_into_key(uint32_t slot, gl::Surface& surface);
-    // The key's depths (metres along its axis, infinity = nothing) in the middle of each cell of a grid over its picture, from
-    // the top; a cell is at most `step` texels wide and high.
-    DepthGrid read_depth(uint32_t slot, uint32_t step) const;
+    DepthGrid read_depth(uint32_t slot, uint32_t step) const { return lod_sprite::read_depth(sprites_[slot].picture, step); }
 
     // Draws a novel frame, background and all, and resolves it. near: what lies nearer than near_depth_m all through, drawn
     // without keys (null = nothing); far: everything else. Keys must be whole.
@@ -65,12 +82,12 @@ class Painter {
                       const NovelOptions& options);
 
     // Of the key in a slot, its size that of the texels.
-    const view::Camera& texel_camera(uint32_t slot) const { return sprites_[slot].drawn_camera; }
+    const view::Camera& texel_camera(uint32_t slot) const { return sprites_[slot].picture.drawn_camera; }
     uint64_t resident_bytes() const;
 
   private:
     struct Sprite {
-        view::Camera camera, drawn_camera;  // the second with the texels' size
+        KeyPicture picture;
         uint32_t width_px = 0, height_px = 0;
         gl::Texture colour, depth;
         gl::Framebuffer framebuffer;

@@ -9,6 +9,9 @@ namespace {
 
 constexpr uint32_t kGridColumns = 64;  // of the depths that the director judges a key by
 
+constexpr std::array<std::string_view, 3> kKeyModes = {"at-once", "thread", "sliced"};
+static_assert(size_t(KeyMode::sliced) + 1 == kKeyModes.size());
+
 struct KnownSetting {
     SettingKind kind;
     void (*set)(FrameOptions&, double);
@@ -33,11 +36,12 @@ std::vector<KnownSetting> make_settings() {
         {number("key-error-px", 0.01, 1000, is.decide.key_error_px, false),
          [](Options& o, double v) { o.decide.key_error_px = v; }},
         {whole("key-scale", 1, 4, is.decide.scale), [](Options& o, double v) { o.decide.scale = uint32_t(v); }},
+        {number("texel-share", 0, 1, is.decide.texel_share, true), [](Options& o, double v) { o.decide.texel_share = v; }},
         {number("guard", 1, 3, is.decide.guard, true), [](Options& o, double v) { o.decide.guard = v; }},
         {whole("slots", 2, 16, is.decide.slots), [](Options& o, double v) { o.decide.slots = uint32_t(v); }},
         {whole("fade-frames", 0, 60, is.decide.fade_frames), [](Options& o, double v) { o.decide.fade_frames = uint32_t(v); }},
-        {on_off("sliced", is.decide.mode == KeyMode::sliced),
-         [](Options& o, double v) { o.decide.mode = v != 0 ? KeyMode::sliced : KeyMode::at_once; }},
+        {{"keyframe", 0, kKeyModes.size() - 1.0, double(is.decide.mode), true, true, false, kKeyModes},
+         [](Options& o, double v) { o.decide.mode = KeyMode(int(v)); }},
         {on_off("near", is.decide.draws_near), [](Options& o, double v) { o.decide.draws_near = v != 0; }},
         {number("morph", 0, 1, is.decide.morph, true), [](Options& o, double v) { o.decide.morph = v; }},
         {number("tolerance-px", 0.05, 10, is.draw.tolerance_px, true), [](Options& o, double v) { o.draw.tolerance_px = v; }},
@@ -80,11 +84,16 @@ std::string_view name_of(Cause cause) {
 }
 
 Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const terrain::Refiner& refiner, terrain::Drawing& ground,
-                                                       const FrameOptions& options) {
+                                                       const FrameOptions& options, const gl::SecondContextMaker& second) {
     std::unique_ptr<FrameDrawer> made(new FrameDrawer(refiner, ground, options));
     Result<Painter> painter = Painter::make(made->surface_, options.decide.slots);
     if (!painter) return tl::unexpected(painter.error());
     made->painter_ = std::move(*painter);
+    if (options.decide.mode == KeyMode::thread) {
+        Result<std::unique_ptr<KeyThread>> thread = KeyThread::start(refiner, ground, options.look, second);
+        if (!thread) return tl::unexpected(thread.error());
+        made->thread_ = std::move(*thread);
+    }
     return made;
 }
 
@@ -104,6 +113,7 @@ void FrameDrawer::settle(const FrameOptions& options) {
 
 void FrameDrawer::change(const FrameOptions& options) {
     assert(options.decide.slots == settings_.slots);
+    assert((options.decide.mode == KeyMode::thread) == (thread_ != nullptr));
     settle(options);
 }
 
@@ -114,6 +124,7 @@ void FrameDrawer::set_triangles(double triangles) {
 
 // A director keeps what it learned of earlier keys, which a fresh one does not know.
 void FrameDrawer::forget() {
+    if (thread_) thread_->drop();
     director_.emplace(refiner_, settings_);
     is_whole_.assign(settings_.slots, false);
     work_.reset();
@@ -170,25 +181,54 @@ uint32_t FrameDrawer::grid_step() const {
 // What of a key belongs to this frame.
 Result<void> FrameDrawer::draw_key() {
     if (work_->begin != nullptr) {
-        Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
-        if (!begun) return begun;
         is_whole_[work_->slot] = false;
         counts_.key_pixel_count += uint64_t(work_->begin->width_px) * work_->begin->height_px * settings_.scale * settings_.scale;
+    }
+    return thread_ ? draw_beside() : draw_slice();
+}
+
+Result<void> FrameDrawer::draw_slice() {
+    if (work_->begin != nullptr) {
+        Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
+        if (!begun) return begun;
     }
     surface_.take(*work_->slice);
     surface_.take_range({});
     painter_->draw_into_key(work_->slot, surface_);
-    counts_.key_triangle_count += work_->slice->triangle_count();
-    counts_.triangle_count += work_->slice->triangle_count();
-    counts_.vertex_reference_count += work_->slice->indices.size();
-    counts_.tested_count += work_->slice->tested_count;
-    ++counts_.draw_call_count;
-    counts_.uploaded_bytes += surface_.uploaded_bytes();
+    const terrain::Cut& slice = *work_->slice;
+    count_key(slice.triangle_count(), slice.indices.size(), slice.tested_count, surface_.uploaded_bytes());
     if (work_->is_last) {
         director_->key_done(painter_->read_depth(work_->slot, grid_step()));
         is_whole_[work_->slot] = true;
     }
     return {};
+}
+
+// A key that the director gave up is let go when the next begins.
+Result<void> FrameDrawer::draw_beside() {
+    if (work_->begin != nullptr) {
+        thread_->drop();
+        Result<KeyPicture> picture = painter_->reserve_key(work_->slot, *work_->begin, settings_.scale);
+        if (!picture) return tl::unexpected(picture.error());
+        thread_->begin({*picture, work_->error_px, grid_step()});
+        return {};
+    }
+    Result<KeyThread::Done> done = thread_->wait();
+    if (!done) return tl::unexpected(done.error());
+    count_key(done->triangle_count, done->vertex_reference_count, done->tested_count, done->uploaded_bytes);
+    director_->key_done(std::move(done->depths), done->triangle_count);
+    is_whole_[work_->slot] = true;
+    return {};
+}
+
+void FrameDrawer::count_key(uint64_t triangle_count, uint64_t vertex_reference_count, uint64_t tested_count,
+                            uint64_t uploaded_bytes) {
+    counts_.key_triangle_count += triangle_count;
+    counts_.triangle_count += triangle_count;
+    counts_.vertex_reference_count += vertex_reference_count;
+    counts_.tested_count += tested_count;
+    ++counts_.draw_call_count;
+    counts_.uploaded_bytes += uploaded_bytes;
 }
 
 // The frame itself.

@@ -12,6 +12,7 @@
 #include "formats/setting.h"
 #include "runtime/lod_sprite/director.h"
 #include "runtime/lod_sprite/draw.h"
+#include "runtime/lod_sprite/draw_key_thread.h"
 #include "runtime/terrain/draw.h"
 
 namespace overlook::lod_sprite {
@@ -29,9 +30,9 @@ void set(FrameOptions& options, std::string_view name, double value);
 
 // What one frame was: exact, and the same on every run, for the same frames before it.
 struct FrameCounts {
-    uint64_t triangle_count = 0;  // submitted, those drawn into keys included
-    uint64_t key_triangle_count = 0;
-    uint64_t key_pixel_count = 0;  // of the keys begun
+    uint64_t triangle_count = 0;      // submitted, those drawn into keys included
+    uint64_t key_triangle_count = 0;  // of keys drawn by a thread, in the frame that gets them back
+    uint64_t key_pixel_count = 0;     // of the keys begun
     uint64_t near_triangle_count = 0;
     uint64_t vertex_reference_count = 0;
     uint64_t draw_call_count = 0;
@@ -52,9 +53,10 @@ std::string_view name_of(Cause cause);
 // picture. A context must be current, also when it goes.
 class FrameDrawer {
   public:
-    // Both must outlive it. Fails as Painter::make.
+    // Both must outlive it. second: how KeyMode::thread comes by its context. Fails as Painter::make and KeyThread::start.
     static Result<std::unique_ptr<FrameDrawer>> make(const terrain::Refiner& refiner, terrain::Drawing& ground,
-                                                     const FrameOptions& options);
+                                                     const FrameOptions& options,
+                                                     const gl::SecondContextMaker& second = gl::second_context);
     FrameDrawer(const FrameDrawer&) = delete;
     FrameDrawer& operator=(const FrameDrawer&) = delete;
 
@@ -70,7 +72,7 @@ class FrameDrawer {
 
     // From the next frame on it is as if newly made: no key, no way flown. What was drawn stays on the card until drawn over.
     void forget();
-    // Goes on with other settings, but for `slots`, and forgets.
+    // Goes on with other settings, but for `slots` and whether keys have a thread, and forgets.
     void change(const FrameOptions& options);
     // From the next frame on; nothing is forgotten.
     void set_triangles(double triangles);
@@ -81,6 +83,9 @@ class FrameDrawer {
     FrameDrawer(const terrain::Refiner& refiner, terrain::Drawing& ground, const FrameOptions& options);
     void settle(const FrameOptions& options);
     Result<void> draw_key();
+    Result<void> draw_slice();
+    Result<void> draw_beside();
+    void count_key(uint64_t triangle_count, uint64_t vertex_reference_count, uint64_t tested_count, uint64_t uploaded_bytes);
     void plan();
     Result<void> paint(const gl::Target& target, const NovelOptions& options);
     uint32_t grid_step() const;
@@ -91,7 +96,8 @@ class FrameDrawer {
     NovelOptions novel_;
     std::optional<Director> director_;
     std::optional<Painter> painter_;
-    std::vector<bool> is_whole_;  // of the slots
+    std::unique_ptr<KeyThread> thread_;  // with KeyMode::thread; after the painter, whose textures it draws into
+    std::vector<bool> is_whole_;         // of the slots
     view::Camera camera_;
     std::optional<KeyWork> work_;
     const Novel* plan_ = nullptr;

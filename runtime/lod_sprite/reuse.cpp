@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -13,7 +14,6 @@ constexpr double kSteepest = 1.35;  // depths of neighbours in the grid farther 
 constexpr int kRaysASide = 12;      // that are asked whether the key saw what is there
 constexpr size_t kErrorSteps = 256;
 constexpr double kRoundingShare = 1e-9;  // of the frame: less is not lost but rounded
-constexpr double kErrorBase = 1.05;      // of the logarithmic steps in which errors are counted
 
 // A point of the key in the camera's picture: pixels from the middle, and depth.
 struct Seen {
@@ -56,8 +56,8 @@ class Projector {
 class Histogram {
   public:
     void add(double error_px, double area) {
-        double step = std::ceil(std::log(std::max(error_px, kLeast_px) / kLeast_px) / std::log(kErrorBase));
-        size_t at = size_t(std::min(step, double(kErrorSteps - 1)));
+        size_t bits = std::bit_cast<uint32_t>(float(std::max(error_px, double(kLeast_px)))) >> kUnusedBits;
+        size_t at = std::min(bits - (std::bit_cast<uint32_t>(kLeast_px) >> kUnusedBits), kErrorSteps - 1);
         areas_[at] += area;
         greatest_of_px_[at] = std::max(greatest_of_px_[at], error_px);
         sum_ += area;
@@ -74,7 +74,8 @@ class Histogram {
     double greatest_px() const { return greatest_px_; }
 
   private:
-    static constexpr double kLeast_px = 0.01;
+    static constexpr float kLeast_px = 0.0078125f;
+    static constexpr int kUnusedBits = 23 - 4;  // of a float's fraction: sixteen steps from one power of two to the next
     std::array<double, kErrorSteps> areas_{}, greatest_of_px_{};  // of each step
     double sum_ = 0, greatest_px_ = 0;
 };

@@ -33,14 +33,19 @@ std::string scene_name(std::string_view setting) {
 
 std::string wanted(const SettingKind& kind) {
     if (kind.is_switch) return "true or false is wanted";
+    if (!kind.words.empty()) return fmt::format("{} is wanted", listed_words(kind));
     return fmt::format("a {}number from {} to {} is wanted", kind.is_whole ? "whole " : "", kind.least, kind.most);
 }
 
-// The setting's value, switches as 0 or 1.
+// The setting's value, switches as 0 or 1, words as their places.
 std::optional<double> value_of(const scene::Setting& setting, const SettingKind& kind) {
     if (kind.is_switch) {
         const bool* is_on = std::get_if<bool>(&setting);
         return is_on != nullptr ? std::optional(double(*is_on)) : std::nullopt;
+    }
+    if (!kind.words.empty()) {
+        const std::string* word = std::get_if<std::string>(&setting);
+        return word != nullptr ? value_of_word(kind, *word) : std::nullopt;
     }
     const double* number = std::get_if<double>(&setting);
     if (number == nullptr || !(*number >= kind.least && *number <= kind.most)) return std::nullopt;

@@ -26,7 +26,8 @@ Result<Method> parse_method(std::string_view text);
 //   "a.json: /layers/0/settings/eror_px: terrain has no such setting; did you mean error_px?"
 //   "a.json: /layers/0/settings/error_px: a number from 0.001 to 10000 is wanted"
 //   "a.json: /layers/0/settings/key_scale: a whole number from 1 to 4 is wanted"
-//   "a.json: /layers/0/settings/sliced: true or false is wanted"
+//   "a.json: /layers/0/settings/near: true or false is wanted"
+//   "a.json: /layers/0/settings/keyframe: at-once, thread or sliced is wanted"
 //   "a.json: /layers/0/settings/low_error_px: 0.5 is less than the error_px of 1"
 // with Exit::impossible
 //   "a.json: /layers/0/method: the player cannot draw caveclod yet; it draws terrain and lod-sprite"

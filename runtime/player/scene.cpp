@@ -65,7 +65,8 @@ Result<Scene> Scene::read(const std::string& path) {
     return scene;
 }
 
-Result<void> Scene::upload() {
+Result<void> Scene::upload(const gl::SecondContextMaker& second) {
+    second_context_ = second;
     Result<terrain::Drawing> drawing = terrain::Drawing::make(*terrain_);
     if (!drawing) return tl::unexpected(drawing.error());
     drawing_.emplace(std::move(*drawing));
@@ -128,7 +129,7 @@ Result<void> Scene::ready_sprite(const FrameStyle& style) {
     if (!sprite_) {
         lod_sprite::FrameOptions options = with_error(layer_.sprite, style.error_px);
         options.look = look;
-        auto made = lod_sprite::FrameDrawer::make(*refiner_, *drawing_, options);
+        auto made = lod_sprite::FrameDrawer::make(*refiner_, *drawing_, options, second_context_);
         if (!made) return tl::unexpected(made.error());
         sprite_ = std::move(*made);
     }

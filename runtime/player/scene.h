@@ -56,8 +56,9 @@ class Scene {
     // scene::read_scene, terrain::read and layer_method_of, and with Exit::impossible:
     //   "a.json: /layers/1: the player draws one terrain at a time; leave one layer"
     static Result<Scene> read(const std::string& path);
-    // Puts it on the graphics card. Needs a current context; must be called once before draw().
-    Result<void> upload();
+    // Puts it on the graphics card. Needs a current context; must be called once before draw(). second: how a context beside it
+    // is made, for keys that are drawn by a thread.
+    Result<void> upload(const gl::SecondContextMaker& second = gl::second_context);
 
     const terrain::Terrain& terrain() const { return *terrain_; }
     const terrain::Refiner& refiner() const { return *refiner_; }
@@ -80,6 +81,7 @@ class Scene {
     std::unique_ptr<terrain::Terrain> terrain_;
     std::optional<terrain::Refiner> refiner_;
     std::optional<terrain::Drawing> drawing_;
+    gl::SecondContextMaker second_context_;
     terrain::Cut cut_;
     LayerMethod layer_;
     std::unique_ptr<lod_sprite::FrameDrawer> sprite_;        // once it was drawn with

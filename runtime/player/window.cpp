@@ -70,6 +70,28 @@ Result<WindowHandle> open_window(const Plan& plan) {
     return window;
 }
 
+// A window that nobody sees, for its context. Windows are made and ended by the main thread alone.
+class SecondGlfwContext : public gl::SecondContext {
+  public:
+    explicit SecondGlfwContext(WindowHandle window) : window_(std::move(window)) {}
+    bool make_current() override {
+        glfwMakeContextCurrent(window_.get());
+        return glfwGetCurrentContext() == window_.get();
+    }
+    void release() override { glfwMakeContextCurrent(nullptr); }
+
+  private:
+    WindowHandle window_;
+};
+
+Result<std::unique_ptr<gl::SecondContext>> second_context() {
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    WindowHandle window(glfwCreateWindow(1, 1, "Overlook", nullptr, glfwGetCurrentContext()), glfwDestroyWindow);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+    if (window == nullptr) return impossible("this renderer has no second context: {}", last_glfw_error());
+    return std::make_unique<SecondGlfwContext>(std::move(window));
+}
+
 void on_key(GLFWwindow* window, int key, int, int action, int) {
     if (action == GLFW_RELEASE) return;
     Events& events = *static_cast<Events*>(glfwGetWindowUserPointer(window));
@@ -285,7 +307,7 @@ Result<void> run_in_window(Plan plan, const command::Common& common, Scene read_
     choose_samples(plan, renderer->is_software, true);
     gl::ErrorCounter errors;
     Scene scene = std::move(read_scene);  // goes before the window and its context
-    if (Result<void> uploaded = scene.upload(); !uploaded) return uploaded;
+    if (Result<void> uploaded = scene.upload(second_context); !uploaded) return uploaded;
     settle(plan, scene);
     Result<void> flown = fly_until_end(plan, common, scene, window->get(), *renderer);
     if (flown && errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});

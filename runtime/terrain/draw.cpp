@@ -92,22 +92,43 @@ Result<Drawing> Drawing::make(const Terrain& terrain) {
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain does not fit into the renderer's memory");
 
     made.heights_view_ = view_of(made.heights_.id(), GL_R32F);
-    const Cut::Morph none{};
-    made.morphs_.fill(std::as_bytes(std::span(&none, 1)));
-    made.morphs_view_ = view_of(made.morphs_.id(), GL_RG32UI);
-
-    made.vertices_ = gl::make_vertex_array();
-    made.nothing_ = gl::make_vertex_array();
-    glVertexArrayElementBuffer(made.vertices_.id(), made.indices_.id());
-
+    made.heights_view_id_ = made.heights_view_.id();
     made.has_texture_ = !terrain.texture.pixels.empty();
     if (made.has_texture_) {
         Result<gl::Texture> texture = make_texture(terrain.texture);
         if (!texture) return tl::unexpected(texture.error());
         made.texture_ = std::move(*texture);
+        made.texture_id_ = made.texture_.id();
     }
-    if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
+    if (Result<void> own = made.make_own(); !own) return tl::unexpected(own.error());
     return made;
+}
+
+Result<Drawing> Drawing::sharing(const Drawing& first) {
+    Drawing made;
+    made.width_ = first.width_;
+    made.height_ = first.height_;
+    made.metres_per_column_ = first.metres_per_column_;
+    made.metres_per_row_ = first.metres_per_row_;
+    made.base_m_ = first.base_m_;
+    made.lowest_m_ = first.lowest_m_;
+    made.highest_m_ = first.highest_m_;
+    made.has_texture_ = first.has_texture_;
+    made.heights_view_id_ = first.heights_view_id_;
+    made.texture_id_ = first.texture_id_;
+    if (Result<void> own = made.make_own(); !own) return tl::unexpected(own.error());
+    return made;
+}
+
+// What each context has for itself.
+Result<void> Drawing::make_own() {
+    const Cut::Morph none{};
+    morphs_.fill(std::as_bytes(std::span(&none, 1)));
+    morphs_view_ = view_of(morphs_.id(), GL_RG32UI);
+    vertices_ = gl::make_vertex_array();
+    nothing_ = gl::make_vertex_array();
+    glVertexArrayElementBuffer(vertices_.id(), indices_.id());
+    return make_programs();
 }
 
 Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
@@ -213,19 +234,24 @@ void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) c
     glDepthMask(GL_TRUE);
 }
 
-void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options,
-                        TriangleRange range) const {
+// Of its own texture; a shared one is as its owner has it.
+void Drawing::set_anisotropy(float anisotropy) {
+    if (texture_.id() == 0 || anisotropy == anisotropy_) return;
+    anisotropy_ = anisotropy;
+    if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return;
+    GLfloat most = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+    glTextureParameterf(texture_.id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(anisotropy, 1.0f, most));
+}
+
+void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options, TriangleRange range) {
     program.use();
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());
-    glBindTextureUnit(1, heights_view_.id());
+    glBindTextureUnit(1, heights_view_id_);
     glBindTextureUnit(2, morphs_view_.id());
-    if (has_texture_) glBindTextureUnit(0, texture_.id());
-    if (has_texture_ && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-        GLfloat most = 1;
-        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-        glTextureParameterf(texture_.id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(options.anisotropy, 1.0f, most));
-    }
+    if (has_texture_) glBindTextureUnit(0, texture_id_);
+    set_anisotropy(options.anisotropy);
     uint64_t triangles = uint64_t(index_count_) / 3, first = std::min(range.first, triangles);
     GLsizei count = GLsizei(3 * std::min(range.count, triangles - first));
     if (count == 0) return;

@@ -45,6 +45,10 @@ class Drawing {
     // Fails with Exit::impossible if the texture or the raster is too large for the renderer.
     static Result<Drawing> make(const Terrain& terrain);
 
+    // The same terrain for another context that shares the first's objects, current now: heights and texture are the first's,
+    // which must outlive it; all else is its own. So both may draw at once, each in its own thread. Fails with Exit::our_bug.
+    static Result<Drawing> sharing(const Drawing& first);
+
     // Draws sky and terrain into `target` and resolves it. Indices of `cut` refer to the terrain given to make().
     // The same arguments give the same picture. A part shows what the whole picture shows there, but for what rounding decides:
     // a renderer rounds places on the screen by their distance from the viewport's own corner.
@@ -53,8 +57,7 @@ class Drawing {
     // Draws with a cut what a method colours by itself, into whatever is bound.
     Result<gl::Program> program(const gl::SurfaceShader& shader) const;
     void take(const Cut& cut);  // what draw_with() draws from now on
-    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options,
-                   TriangleRange range = {}) const;
+    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options, TriangleRange range = {});
     void draw_sky(const view::Camera& camera, const DrawOptions& options) const;  // where nothing is drawn yet
 
     // What the last draw() or take() sent to the card.
@@ -62,6 +65,8 @@ class Drawing {
 
   private:
     Drawing() = default;
+    void set_anisotropy(float anisotropy);
+    Result<void> make_own();
     Result<void> make_programs();
     Result<void> make_sky_row();
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
@@ -78,6 +83,8 @@ class Drawing {
     gl::Texture heights_view_, morphs_view_;  // the buffers as textures of one row
     GLsizei index_count_ = 0;
     gl::Texture texture_, sky_row_;
+    GLuint heights_view_id_ = 0, texture_id_ = 0;  // its own or those it shares
+    float anisotropy_ = 0;                         // that its texture was set to
     gl::Program shaded_, wireframe_, sky_;
     uint64_t uploaded_bytes_ = 0;
 };

@@ -16,6 +16,7 @@ using lod_sprite::Cause;
 using lod_sprite::FrameCounts;
 using lod_sprite::FrameDrawer;
 using lod_sprite::FrameOptions;
+using lod_sprite::KeyMode;
 
 // A hilly terrain on the card, and a way over it.
 struct Stage {
@@ -45,6 +46,7 @@ struct Stage {
 FrameOptions fine_options() {
     FrameOptions options;
     lod_sprite::set(options, "error-px", 0.01);
+    lod_sprite::set(options, "texel-share", 0);
     return options;
 }
 
@@ -101,6 +103,73 @@ TEST(LodSpriteFrames, BeginWithoutAKeyAndSayWhenOneTakesOver) {
     EXPECT_GT(key_triangles, 0u);
 }
 
+FrameOptions thread_options() {
+    FrameOptions options = fine_options();
+    options.decide.mode = KeyMode::thread;
+    return options;
+}
+
+TEST(LodSpriteFrames, GetAThreadsKeyInTheFrameThatIsStated) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto frames = stage.frames(thread_options());
+    gl::Target target = target_of();
+    for (uint32_t frame = 0; frame <= lod_sprite::kThreadFrames; ++frame) {
+        FrameCounts counts = draw(*frames, stage.camera(frame), target);
+        bool is_back = frame == lod_sprite::kThreadFrames;
+        EXPECT_EQ(counts.key_pixel_count > 0, frame == 0) << frame;
+        EXPECT_EQ(counts.key_triangle_count > 0, is_back) << frame;
+        EXPECT_EQ(counts.live_key_count, is_back ? 1u : 0u) << frame;
+        EXPECT_EQ(counts.rekeyed, is_back ? Cause::first : Cause::none) << frame;
+    }
+}
+
+TEST(LodSpriteFrames, FromAThreadsKeysAreTheSameOnEveryRun) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto one = stage.frames(thread_options()), other = stage.frames(thread_options());
+    gl::Target target = target_of();
+    uint32_t keyed = 0;
+    for (uint32_t frame = 0; frame < 60; ++frame) {
+        FrameCounts counts = draw(*one, stage.camera(frame), target);
+        std::vector<uint8_t> pixels = target.read().pixels;
+        FrameCounts expected = draw(*other, stage.camera(frame), target);
+        ASSERT_EQ(pixels, target.read().pixels) << "frame " << frame;
+        EXPECT_EQ(counts.triangle_count, expected.triangle_count);
+        EXPECT_EQ(counts.key_triangle_count, expected.key_triangle_count);
+        EXPECT_EQ(counts.rekeyed, expected.rekeyed);
+        keyed += counts.rekeyed != Cause::none;
+    }
+    EXPECT_GE(keyed, 1u);
+}
+
+TEST(LodSpriteFrames, ForgetAKeyThatIsStillBeingDrawn) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto flown = stage.frames(thread_options()), fresh = stage.frames(thread_options());
+    gl::Target target = target_of();
+    for (uint32_t frame = 0; frame < 3; ++frame) draw(*flown, stage.camera(frame), target);
+    flown->forget();
+    for (uint32_t frame = 3; frame < 30; ++frame) {
+        draw(*flown, stage.camera(frame), target);
+        std::vector<uint8_t> forgotten = target.read().pixels;
+        draw(*fresh, stage.camera(frame), target);
+        ASSERT_EQ(forgotten, target.read().pixels) << "frame " << frame;
+    }
+    draw(*flown, stage.camera(0, 160, 100), target_of(160, 100));  // a key is under way as it ends
+}
+
+TEST(LodSpriteFrames, SayThatThereIsNoSecondContext) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto none = []() -> Result<std::unique_ptr<gl::SecondContext>> { return impossible("none here"); };
+    auto made = FrameDrawer::make(stage.refiner, *stage.ground, thread_options(), none);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().exit, Exit::impossible);
+    EXPECT_EQ(made.error().message, "none here");
+    EXPECT_TRUE(FrameDrawer::make(stage.refiner, *stage.ground, fine_options(), none));
+}
+
 TEST(LodSpriteFrames, DrawTheSamePictureAgain) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Stage stage;
@@ -139,7 +208,7 @@ void expect_fresh_after_resize(const Stage& stage, Frames& flown, Frames& fresh)
 TEST(LodSpriteFrames, OfAnotherSizeAreThoseOfAFreshStart) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Stage stage;
-    for (lod_sprite::KeyMode mode : {lod_sprite::KeyMode::sliced, lod_sprite::KeyMode::at_once}) {
+    for (KeyMode mode : {KeyMode::sliced, KeyMode::thread, KeyMode::at_once}) {
         FrameOptions options = fine_options();
         options.decide.mode = mode;
         expect_fresh_after_resize(stage, *stage.frames(options), *stage.frames(options));
@@ -223,11 +292,13 @@ TEST(LodSpriteSettings, AreTheStructsOwnDefaultsByName) {
     EXPECT_EQ(options.decide.mode, untouched.decide.mode);
     EXPECT_EQ(options.draw.tolerance_px, untouched.draw.tolerance_px);
     lod_sprite::set(options, "slots", 7);
-    lod_sprite::set(options, "sliced", 0);
+    lod_sprite::set(options, "keyframe", 0);
     lod_sprite::set(options, "slab-test", 0);
     EXPECT_EQ(options.decide.slots, 7u);
     EXPECT_EQ(options.decide.mode, lod_sprite::KeyMode::at_once);
     EXPECT_FALSE(options.draw.tests_slab);
+    lod_sprite::set(options, "keyframe", 1);
+    EXPECT_EQ(options.decide.mode, KeyMode::thread);
 }
 
 }  // namespace

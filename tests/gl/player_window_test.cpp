@@ -174,8 +174,10 @@ TEST_F(Player, RefusesScenesThatItCannotDraw) {
               "/layers/0/settings/strip: lod-sprite:paper has no such setting; did you mean strips?\n"},
              {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"key_scale":1.5}})", 3,
               "scene.json: /layers/0/settings/key_scale: a whole number from 1 to 4 is wanted\n"},
-             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"sliced":1}})", 3,
-              "scene.json: /layers/0/settings/sliced: true or false is wanted\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"near":1}})", 3,
+              "scene.json: /layers/0/settings/near: true or false is wanted\n"},
+             {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"keyframe":"threads"}})", 3,
+              "scene.json: /layers/0/settings/keyframe: at-once, thread or sliced is wanted\n"},
              {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"error_px":2,"low_error_px":1}})", 3,
               "scene.json: /layers/0/settings/low_error_px: 1 is less than the error_px of 2\n"},
              {R"({"asset":"hills.ovl","method":"terrain:paper"})", 3,
@@ -231,13 +233,13 @@ TEST_F(Player, DrawsByLodSpriteAndReportsItsKeyframes) {
 
 TEST_F(Player, TakesMethodAndSettingsFromTheScene) {
     write("scene.json", R"({"version":1,"error_px":2,"layers":[{"asset":"hills.ovl","method":"lod-sprite",
-        "settings":{"low_error_px":8,"key_scale":1,"sliced":false}}]})");
+        "settings":{"low_error_px":8,"key_scale":1,"keyframe":"at-once"}}]})");
     std::string options = kSouthToNorth + (" --report " + in_folder("report.json"));
     ASSERT_EQ(play(in_folder("scene.json") + options), 0) << output_;
     nlohmann::json coarse = report();
     EXPECT_EQ(coarse["method"], "lod-sprite");
     EXPECT_EQ(coarse["error_px"], 2);
-    EXPECT_EQ(coarse["frames"][0]["rekeyed"], "first");  // not sliced: at once
+    EXPECT_EQ(coarse["frames"][0]["rekeyed"], "first");  // at once
     uint64_t texels = coarse["frames"][0]["key_pixels"];
     EXPECT_GT(texels, 96u * 64u);
     EXPECT_LT(texels, 2 * 96u * 64u);  // one a pixel, with the guard band

@@ -32,12 +32,26 @@ TEST(Methods, AreNamedWithEverySetting) {
 }
 
 TEST(Methods, AreReadBackFromTheirLabels) {
-    for (const char* text : {"terrain@error-px=0.5@samples=1@morph=0.25", "terrain:hard@error-px=2@samples=1", "full@samples=2",
-                             "lod-sprite:paper@error-px=1@low-error-px=8@key-error-px=1@depth-thickness=0.001@strips=1@samples=4"}) {
+    for (const char* text :
+         {"terrain@error-px=0.5@samples=1@morph=0.25", "terrain:hard@error-px=2@samples=1", "full@samples=2",
+          "lod-sprite:paper@error-px=1@low-error-px=8@key-error-px=1@depth-thickness=0.001@strips=1@samples=4"}) {
         Result<MethodSpec> spec = parse_method(text);
         ASSERT_TRUE(spec) << spec.error().message;
         EXPECT_EQ(label_of(*spec), text);
     }
+}
+
+TEST(Methods, NameWhatIsChosenByWord) {
+    Result<MethodSpec> spec = parse_method("lod-sprite@keyframe=thread");
+    ASSERT_TRUE(spec) << spec.error().message;
+    EXPECT_EQ(setting(*spec, "keyframe"), 1);
+    EXPECT_NE(label_of(*spec).find("@keyframe=thread"), std::string::npos);
+    EXPECT_EQ(*parse_method(label_of(*spec)), *spec);
+    EXPECT_EQ(label_of(*parse_method("lod-sprite")).find("keyframe"), std::string::npos);
+    EXPECT_EQ(labels_of({"lod-sprite"}, {"keyframe=at-once,thread,sliced"}).size(), 3u);
+    for (const char* wrong : {"1", "threads", ""})
+        EXPECT_EQ(refusal_of({std::string("lod-sprite@keyframe=") + wrong}, {}),
+                  std::string("--method lod-sprite@keyframe=") + wrong + ": keyframe takes at-once, thread or sliced");
 }
 
 TEST(Methods, HaveVariantsThatAreCurvesOfTheirOwn) {

@@ -72,6 +72,7 @@ std::string known_names() {
 }
 
 std::optional<double> number_of(std::string_view text, const SettingKind& kind) {
+    if (!kind.words.empty()) return value_of_word(kind, text);
     double value = 0;
     auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     bool is_number = problem == std::errc() && after == text.data() + text.size();
@@ -81,6 +82,7 @@ std::optional<double> number_of(std::string_view text, const SettingKind& kind) 
 }
 
 std::string wanted(const SettingKind& kind) {
+    if (!kind.words.empty()) return fmt::format("{} takes {}", kind.name, listed_words(kind));
     return fmt::format("{} takes a {}number from {} to {}", kind.name, kind.is_whole ? "whole " : "", kind.least, kind.most);
 }
 
@@ -186,7 +188,8 @@ std::string label_of(const MethodSpec& spec) {
     for (const auto& [name, value] : spec.settings) {
         const SettingKind* known = kind == kinds().end() ? nullptr : &kind->settings[place_of(*kind, name)];
         bool goes_without_saying = known != nullptr && known->is_seldom && known->otherwise == value;
-        if (!goes_without_saying) label += fmt::format("@{}={}", name, value);
+        if (!goes_without_saying)
+            label += fmt::format("@{}={}", name, known != nullptr ? text_of(*known, value) : fmt::format("{}", value));
     }
     return label;
 }

@@ -26,6 +26,7 @@ std::span<const MethodKind> method_kinds();  // the default variant of each meth
 //   "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?"
 //   "--method terrain:hard@morph=1: terrain:hard has no setting morph"
 //   "--method terrain@error-px=x: error-px takes a number from 0.01 to 1000"
+//   "--method lod-sprite@keyframe=x: keyframe takes at-once, thread or sliced"
 Result<MethodSpec> parse_method(std::string_view text);
 
 // Multiplies the methods by sweeps, each "setting=value,value,...": of a method that has the setting and was not given it, one

@@ -68,11 +68,13 @@ void add_options(CLI::App& app, Options& options) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--size", options.size, "Size of the pictures in pixels")->type_name("WxH")->capture_default_str();
-    app.add_option("--method", options.methods,
-                   "NAME[:variant][@setting=value]..., may be repeated: terrain (settings error-px, samples, triangles, morph); "
-                   "terrain:hard, whose levels pop (error-px, samples, triangles); lod-sprite (error-px of keys, low-error-px, "
-                   "key-error-px, samples, and its remedies, each to be switched off); lod-sprite:paper, as published (error-px, "
-                   "low-error-px, key-error-px, depth-thickness, eye-depth, strips, samples); full (samples)")
+    app.add_option(
+           "--method", options.methods,
+           "NAME[:variant][@setting=value]..., may be repeated: terrain (settings error-px, samples, triangles, morph); "
+           "terrain:hard, whose levels pop (error-px, samples, triangles); lod-sprite (error-px of keys, low-error-px, "
+           "key-error-px, samples, keyframe=at-once|thread|sliced: how keys are made; and its remedies, each to be switched "
+           "off); lod-sprite:paper, as published (error-px, "
+           "low-error-px, key-error-px, depth-thickness, eye-depth, strips, samples); full (samples)")
         ->type_name("METHOD")
         ->required()
         ->expected(1)

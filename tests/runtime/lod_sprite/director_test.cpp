@@ -45,6 +45,8 @@ view::Camera start_pose() {
     return camera;
 }
 
+constexpr uint64_t kThreadTriangles = 1234;  // of keys that a thread is said to have drawn
+
 // Carries out what a director plans, with a ray marcher for a renderer; sees to it that plans can be carried out.
 class Flight {
   public:
@@ -91,6 +93,15 @@ class Flight {
             drawn.push_back({*work.begin, {}});
             ended.push_back(false);
         }
+        if (work.slice != nullptr) add_slice(work, frame);
+        if (!work.is_last) return;
+        frame.ended_key = true;
+        ended[place_of_.at(work.slot)] = true;
+        whole_.insert(work.slot);
+        director_.key_done(test::seen_depths(ground().terrain, camera_of_.at(work.slot), 48), kThreadTriangles);
+        if (work.slice == nullptr) frame.slice_triangles = kThreadTriangles;
+    }
+    void add_slice(const KeyWork& work, Frame& frame) {
         frame.slice_triangles += work.slice->triangle_count();
         Triangles& into = drawn[place_of_.at(work.slot)].second;
         for (size_t i = 0; i < work.slice->indices.size(); i += 3) {
@@ -98,11 +109,6 @@ class Flight {
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
             into.insert(t);
         }
-        if (!work.is_last) return;
-        frame.ended_key = true;
-        ended[place_of_.at(work.slot)] = true;
-        whole_.insert(work.slot);
-        director_.key_done(test::seen_depths(ground().terrain, camera_of_.at(work.slot), 48));
     }
 
     Director director_;
@@ -168,8 +174,28 @@ TEST(Director, HasAKeyWithinFifteenFramesOfATeleport) {
         }
 }
 
+TEST(Director, AsksForAThreadsKeySoManyFramesLater) {
+    Settings settings;
+    settings.mode = KeyMode::thread;
+    Flight flight(settings);
+    std::vector<Frame> frames = flight.fly(start_pose(), {0, 10, 0}, 0.1, 200);
+    std::optional<size_t> begun;
+    int keys = 0;
+    for (size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(frames[i].had_work, frames[i].begun || frames[i].ended_key) << i;
+        if (frames[i].ended_key) {
+            ASSERT_TRUE(begun);
+            EXPECT_EQ(i, *begun + kThreadFrames);
+            ++keys;
+        }
+        if (frames[i].begun) begun = i;
+    }
+    EXPECT_EQ(frames[0].begun.has_value(), true);
+    EXPECT_GE(keys, 3);
+}
+
 TEST(Director, MakesOneKeyForACameraThatStandsStill) {
-    for (KeyMode mode : {KeyMode::sliced, KeyMode::at_once})
+    for (KeyMode mode : {KeyMode::sliced, KeyMode::at_once, KeyMode::thread})
         for (double error_px : {0.7, 1.0, 2.0}) {
             Settings settings;
             settings.mode = mode, settings.error_px = error_px;
@@ -177,6 +203,21 @@ TEST(Director, MakesOneKeyForACameraThatStandsStill) {
             flight.fly(start_pose(), {0, 0, 0}, 0, 60);
             EXPECT_EQ(flight.director().keys_made(), 1u) << error_px;
         }
+}
+
+TEST(Director, KeepsNoPromiseThatATexelCannotShow) {
+    Settings settings;
+    settings.error_px = 0.01, settings.key_error_px = 0.9;
+    auto cut_px = [&](uint32_t scale, double texel_share) {
+        settings.scale = scale, settings.texel_share = texel_share;
+        return Director(ground().refiner, settings).key_cut_px();
+    };
+    EXPECT_EQ(cut_px(2, 0.25), 0.125);
+    EXPECT_EQ(cut_px(1, 0.25), 0.25);
+    EXPECT_EQ(cut_px(2, 0), 0.01);
+    EXPECT_DOUBLE_EQ(cut_px(1, 1), 0.6);  // room is left below key_error_px
+    settings.error_px = 0.5;
+    EXPECT_EQ(cut_px(2, 0.25), 0.5);
 }
 
 TEST(Director, DrawsEachTriangleOfAKeyOnce) {
