@@ -71,15 +71,13 @@ struct Groups {
 
     uint64_t free_count = 0, sharp_count = 0, rigid_count = 0;
     uint64_t fixed_face_count = 0;     // faces whose three corners are rigid: none of them ever goes under the strict rule
-    uint64_t floor_face_estimate = 0;  // how many faces a coarsest mesh of rigid positions and shortest boundary curves has
+    uint64_t floor_face_estimate = 0;  // so many faces stay at least, topology kept: see least_face_count
 };
 
 // Finds all of it. mesh: as the input gives it (ids in range, no face with two equal corners, pools finite); what it lacks counts
 // as equal everywhere: white, texture coordinate 0. Normals are brought to length 1; those of length 0, and those of corners
-// without one, are made as crease_deg says. A pure function: the same for any number of threads; renumbered with the faces. O(F +
-// P), and about 200 bytes a face while it runs. Fails with Exit::impossible: "position 12 lies in 70000 surface groups that all
-// differ; 65535 can be told apart: weld normals
-// (--weld-normals) or leave texture coordinates out (--ignore-uv)".
+// without one, are made as crease_deg says. The same for any number of threads; renumbered with the faces. O(F + P), about 150
+// bytes a face while it runs. Fails as pack_groups: an id has 16 bits.
 Result<Groups> find_groups(const mesh::Mesh& mesh, const GroupOptions& options);
 
 }  // namespace overlook::caveclod
