@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/container.h"
@@ -27,11 +28,10 @@ namespace overlook::caveclod {
 constexpr container::Tag kKind = container::tag("CAVE");
 constexpr uint32_t kCorners = 4;  // a corner of a face is written face * kCorners + 0, 1 or 2
 
-// A set of directions: those within half_angle of an axis, in four bytes. Made by cone_of, so that rounding only ever widens it.
+// A set of directions: those within half_angle of an axis, in three bytes. Made by cone_of, so that rounding only ever widens it.
 struct NormalCone {
-    std::array<int16_t, 2> axis{0, 0};  // octahedral, -1023..1023
-    // Of 255 steps of half a turn; 255: every direction.
-    uint8_t half_angle = 255;
+    std::array<int8_t, 2> axis{0, 0};  // octahedral, -127..127
+    uint8_t half_angle = 255;          // of 255 steps to half a turn; 255: every direction
 
     bool operator==(const NormalCone&) const = default;
 };
@@ -85,14 +85,13 @@ struct Hierarchy {
     // applied. Finite, never above that of a split which i needs. That of a whole cut is the greatest over the splits that it could
     // apply next, and never below finest_error_m.
     std::vector<float> error_m;
-    // [S] All that i and whatever needs it, directly or not, ever touch (drawn or source) lies within radius_m of the owner's
-    // position. Finite. The sphere of a needed split holds that of i, up to kSphereSlack.
+    // [S] All versions of all faces that i and whatever needs it, directly or not, ever touch lie within radius_m of the owner's
+    // position (the finest versions are the source). The sphere of a needed split holds that of i. By complete().
     std::vector<float> radius_m;
-    // [S] Holds the normals of every face version, before and after, that i and whatever needs it touch, and of the source there.
-    // A needed split's cone holds that of i.
+    // [S] Holds the normals of all those versions. A needed split's cone holds that of i. By complete().
     std::vector<NormalCone> cone;
-    // Compressed rows: split i needs needs[need_begin[i] .. need_begin[i + 1]), ascending, each before i. Those that follow from
-    // others may be left out.
+    // Compressed rows: split i needs needs[need_begin[i] .. need_begin[i + 1]), ascending, each before i. By complete(), from what
+    // the splits touch; a baker may give others before (rows as here, or both empty), which stay.
     std::vector<uint32_t> need_begin, needs;  // [S + 1], [..]
     std::vector<uint32_t> added_begin;        // [S + 1], from base_face_count; each split adds 0, 1 or 2
     // Compressed rows: corners (face * kCorners + corner) that go from owner[i] to the new position; ascending, no face twice,
@@ -100,7 +99,7 @@ struct Hierarchy {
     std::vector<uint32_t> moved_begin, moved;  // [S + 1], [..]
 
     // Faces, counter-clockwise seen from outside, as they are when they come: in the coarsest cut, or right after their split. A
-    // face that split i adds has owner[i] at one corner, the new position at another, and an older position at the third.
+    // face that split i adds is (owner, older, new) or (owner, new, older), in this order where there are both (canonicalise()).
     std::vector<std::array<uint32_t, 3>> face_positions;  // [F]
     std::vector<uint32_t> face_group;                     // [F]
     std::vector<uint32_t> group_surface;                  // [G] index into surfaces
@@ -110,9 +109,9 @@ struct Hierarchy {
     // Render vertices, those of position p in [vertex_begin[p], vertex_begin[p + 1]): at least one, at most kMostWedges.
     std::vector<RenderVertex> vertices;   // [D]
     std::vector<uint32_t> vertex_begin;   // [P + 1]
-    std::vector<uint8_t> birth_wedge;     // [3F] of each corner at its face's birth: offset in its position's row
-    std::vector<uint8_t> moved_wedge;     // [as moved] after the split: offset in the new position's row
-    std::vector<uint8_t> moved_back_wedge;  // [as moved] before it: offset in the owner's row
+    std::vector<uint16_t> birth_wedge;       // [3F] of each corner at its face's birth: offset in its position's row
+    std::vector<uint16_t> moved_wedge;       // [as moved] after the split: offset in the new position's row
+    std::vector<uint16_t> moved_back_wedge;  // [as moved] before it: offset in the owner's row
     Attributes attributes;
 
     std::vector<Surface> surfaces;
@@ -121,7 +120,53 @@ struct Hierarchy {
     uint32_t split_count() const { return uint32_t(owner.size()); }
     uint32_t new_position(uint32_t split) const { return base_position_count + split; }
 };
-constexpr uint32_t kMostWedges = 255;
-constexpr float kSphereSlack = 1e-4f;  // of the greater radius: what rounding may take from the nesting of spheres
+constexpr uint32_t kMostWedges = 65535;
+
+// Between a baker and write(): canonicalise, quantise, measure errors, complete.
+
+// Turns and orders the faces that splits add, and orders moved rows, as Hierarchy asks; nothing that is drawn changes.
+void canonicalise(Hierarchy& hierarchy);
+
+// Fills needs, radius_m and cone from what the splits touch. Cost O(moved * valence). Fails with Exit::our_bug if the rows do not
+// describe splits that can be applied one after the other: "split 17 moves a face that is not at its owner".
+Result<void> complete(Hierarchy& hierarchy);
+
+// How finely what is stored is stored.
+struct Precision {
+    uint32_t position_bits = 14;  // 8..20, of the longest side of the box round all positions
+    uint32_t uv_bits = 14;        // 8..20, of the greater range
+    uint32_t normal_bits = 10;    // 6..16, of each octahedral coordinate
+};
+// What quantising changed at most.
+struct Quantised {
+    double position_m = 0, normal_deg = 0, uv = 0;
+};
+// Moves positions and attributes to those that can be stored; origin_m goes to the box's lowest corner. Positions may coincide
+// afterwards.
+Quantised quantise(Hierarchy& hierarchy, const Precision& precision);
+// Rounds errors up to those that can be stored (eighths of an octave: at most 9.1 % more) and, from fine to coarse, to what needs
+// them. Needs must be complete.
+void round_errors(Hierarchy& hierarchy);
+
+// How the numbers in blocks are packed.
+enum class Codec : uint32_t {
+    meshopt = 0,  // meshoptimizer's vertex codec, then zstd
+    draco = 1,    // Draco's symbol coding (rANS)
+};
+
+// Adds the hierarchy's sections to a baked file: MINF, MBLK, MDIR and MSUR. Errors are rounded up (round_errors). Same hierarchy,
+// same bytes. Exit::our_bug if it is not quantised, complete and canonical: "a hierarchy to write has ...".
+Result<void> write(container::Writer& writer, const Hierarchy& hierarchy, const Precision& precision, Codec codec = Codec::meshopt);
+
+// Reads a hierarchy, whole or its first blocks: any number of them, 0 being the coarsest cut alone, is a hierarchy that can be
+// drawn; its finest_error_m is then that of what is missing. The file may be hostile; every failure is Exit::bad_input and names
+// file, rule and place: "head.ovl: M9: block 17: its bytes do not match their checksum; was the file damaged?".
+// Exit::impossible if there is not so much memory.
+Result<Hierarchy> read(const std::string& path);
+Result<Hierarchy> read(const container::Reader& file, uint32_t most_blocks = ~0u);
+
+// What each rule of these sections says, as container::rule_text.
+std::string_view rule_text(int rule);
+int rule_count();
 
 }  // namespace overlook::caveclod
