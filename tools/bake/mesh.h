@@ -21,7 +21,7 @@ struct Surface {
     std::string texture;                 // bare file name of the colour texture, or ""
     std::vector<uint8_t> texture_bytes;  // that picture's file (PNG, JPEG, ...), embedded or beside the mesh: with the first
                                          // surface of this texture name only; none if it is missing
-    bool is_alpha_masked = false;  // texels of less opacity than alpha_cutoff are holes
+    bool is_alpha_masked = false;        // texels of less opacity than alpha_cutoff are holes
     float alpha_cutoff = 0.5f;
     bool is_two_sided = false;  // drawn from behind too
 };

@@ -11,9 +11,10 @@ namespace overlook::mesh {
 //  mesh
 //     already, the same way round, are dropped, each with its reason. A face that stands there the other way round is a back
 //     side: it stays, on a sheet of its own.
-//  2. Faces are turned so that neighbours agree, over edges of exactly two faces. Of the two ways to turn a piece the one that
-//     turns fewer faces is taken, so what the file has right stays; where the file is undecided (a third or more against) and
-//     the piece closed, the one that encloses a positive volume. Edges that no turning makes agree are cut.
+//  2. Faces are turned so that neighbours agree, over edges of exactly two faces. A face that agrees with its own normals at all
+//     corners is never turned: the file has said twice where its outside is. Of the two ways to turn a piece of others the one
+//     that turns fewer faces is taken, so what the file has right stays; where the file is undecided (a third or more against)
+//     and the piece closed, the one that encloses a positive volume. Edges where faces do not agree in the end are cut.
 //  3. At an edge of more faces those that continue each other flattest, and on the same surface rather than on another, stay
 //  joined
 //     in pairs; all others are cut apart.

@@ -68,6 +68,7 @@ std::vector<std::string> text_of(const MeshReport& report) {
         .add(report.back_side_count, "back sides kept apart")
         .add(report.complex_edge_count, "edges of more than two faces")
         .add(report.unorientable_edge_count, "edges that cannot be oriented")
+        .add(report.contradicting_edge_count, "edges whose faces contradict each other")
         .add(report.cut_edge_count, "edges added by cutting")
         .add(report.split_position_count, "positions added by splitting")
         .add(report.bad_normal_count, "normals missing")

@@ -51,17 +51,18 @@ struct MeshReport {
     uint64_t border_edge_count = 0;
 
     // What was done.
-    uint64_t welded_position_count = 0;    // equal to one before them
-    uint64_t unused_position_count = 0;    // used by no face that was kept
-    uint64_t flipped_face_count = 0;       // turned to agree with their neighbours
-    uint64_t back_side_count = 0;          // faces that stand the other way round too; kept, on sheets of their own
-    uint64_t complex_edge_count = 0;       // edges of three faces or more, not counting back sides
-    uint64_t unorientable_edge_count = 0;  // edges of two faces that no turning makes agree (Moebius, Klein); cut
-    uint64_t cut_edge_count = 0;           // edges that were added by taking apart faces that shared one
-    uint64_t split_position_count = 0;     // positions that were added to take sheets apart
-    uint64_t bad_normal_count = 0;         // normals of the file, not finite or of no length: taken as missing
-    uint64_t bad_uv_count = 0;             // texture coordinates that are not finite: taken as missing
-    double rounding_m = 0;                 // the farthest that a position lies from where the file puts it
+    uint64_t welded_position_count = 0;     // equal to one before them
+    uint64_t unused_position_count = 0;     // used by no face that was kept
+    uint64_t flipped_face_count = 0;        // turned to agree with their neighbours
+    uint64_t back_side_count = 0;           // faces that stand the other way round too; kept, on sheets of their own
+    uint64_t complex_edge_count = 0;        // edges of three faces or more, not counting back sides
+    uint64_t unorientable_edge_count = 0;   // edges of two faces that no turning makes agree (Moebius, Klein); cut
+    uint64_t contradicting_edge_count = 0;  // ... whose faces each agree with their own normals, but not with each other; cut
+    uint64_t cut_edge_count = 0;            // edges that were added by taking apart faces that shared one
+    uint64_t split_position_count = 0;      // positions that were added to take sheets apart
+    uint64_t bad_normal_count = 0;          // normals of the file, not finite or of no length: taken as missing
+    uint64_t bad_uv_count = 0;              // texture coordinates that are not finite: taken as missing
+    double rounding_m = 0;                  // the farthest that a position lies from where the file puts it
 
     std::vector<DroppedFace> dropped;  // by rising source
     std::vector<std::string> notes;    // a line each: what the file asks for that is missing or not read ("a.mtl: ...")

@@ -46,14 +46,10 @@ class Cutter {
 
     // Pairs the halfedges of one edge.
     void join(std::span<const uint32_t> group) {
-        const bool is_front = layer_[group[0] / 3] == 0;
         if (group.size() == 2) {
-            if (are_opposite(group[0], group[1]))
-                pair(group[0], group[1]);
-            else if (is_front)
-                ++report_.unorientable_edge_count;
+            if (are_opposite(group[0], group[1])) pair(group[0], group[1]);
         } else if (group.size() > 2) {
-            if (is_front) ++report_.complex_edge_count;
+            if (layer_[group[0] / 3] == 0) ++report_.complex_edge_count;
             group.size() <= kMostCompared ? join_flattest(group) : join_in_order(group);
         }
     }

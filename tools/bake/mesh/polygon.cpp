@@ -2,7 +2,9 @@
 
 #include "tools/bake/mesh/polygon.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace overlook::mesh {
 namespace {
@@ -17,11 +19,24 @@ glm::dvec3 area_vector(std::span<const glm::dvec3> corners) {
     return sum;
 }
 
+// Whether no corner is farther from the polygon's plane than a fifth of the polygon's size.
+bool is_flat(std::span<const glm::dvec3> corners, const glm::dvec3& area) {
+    const double length = glm::length(area);
+    double size = 0, least = 0, most = 0;
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 from_first = corner - corners[0];
+        const double height = length > 0 ? glm::dot(from_first, area) / length : 0;
+        least = std::min(least, height);
+        most = std::max(most, height);
+        size = std::max(size, glm::length(from_first));
+    }
+    return most - least <= 0.2 * size;
+}
+
 }  // namespace
 
 // Drops the axis along which the area is largest, so that turning left stays turning left.
-void PolygonCutter::project(std::span<const glm::dvec3> corners) {
-    const glm::dvec3 area = area_vector(corners);
+void PolygonCutter::project(std::span<const glm::dvec3> corners, const glm::dvec3& area) {
     const double x = std::abs(area.x), y = std::abs(area.y), z = std::abs(area.z);
     points_.clear();
     for (const glm::dvec3& corner : corners) {
@@ -68,14 +83,7 @@ void PolygonCutter::fan(uint32_t count) {
     for (uint32_t i = 1; i + 1 < count; ++i) triangles_.push_back({0, i, i + 1});
 }
 
-std::span<const Corners> PolygonCutter::cut(std::span<const glm::dvec3> corners) {
-    const uint32_t count = uint32_t(corners.size());
-    triangles_.clear();
-    if (count == 3) {
-        triangles_.push_back({0, 1, 2});
-        return triangles_;
-    }
-    project(corners);
+void PolygonCutter::link(uint32_t count) {
     previous_.resize(count);
     next_.resize(count);
     is_reflex_.assign(count, 0);
@@ -89,16 +97,14 @@ std::span<const Corners> PolygonCutter::cut(std::span<const glm::dvec3> corners)
         is_reflex_[i] = 1;
         reflex_.push_back(i);
     }
-    if (reflex_.empty()) {
-        fan(count);
-        return triangles_;
-    }
+}
 
+bool PolygonCutter::clip_ears(uint32_t count) {
     uint32_t corner = 0, tried = 0;
     for (uint32_t left = count; left > 3;) {
         // Once round without an ear: the polygon crosses itself or has no area here.
         const bool has_none = tried > left;
-        if (!has_none && tests_left_ < reflex_.size()) return {};
+        if (!has_none && tests_left_ < reflex_.size()) return false;
         if (!has_none && !is_ear(corner)) {
             corner = next_[corner];
             ++tried;
@@ -110,6 +116,27 @@ std::span<const Corners> PolygonCutter::cut(std::span<const glm::dvec3> corners)
         tried = 0;
     }
     triangles_.push_back({previous_[corner], corner, next_[corner]});
+    return true;
+}
+
+std::span<const Corners> PolygonCutter::cut(std::span<const glm::dvec3> corners) {
+    const uint32_t count = uint32_t(corners.size());
+    triangles_.clear();
+    if (count == 3) {
+        triangles_.push_back({0, 1, 2});
+        return triangles_;
+    }
+    const glm::dvec3 area = area_vector(corners);
+    if (!is_flat(corners, area)) {
+        fan(count);
+        return triangles_;
+    }
+    project(corners, area);
+    link(count);
+    if (reflex_.empty())
+        fan(count);
+    else if (!clip_ears(count))
+        return {};
     return triangles_;
 }
 

@@ -14,7 +14,8 @@ namespace overlook::mesh {
 class PolygonCutter {
   public:
     // Cuts a polygon of n >= 3 corners, which may be concave, not flat, and touch itself, into n - 2 triangles of corner numbers
-    // 0..n-1, wound as the polygon is. Every corner is in a triangle. A convex polygon becomes a fan from corner 0. The view is
+    // 0..n-1, wound as the polygon is. Every corner is in a triangle. A convex polygon becomes a fan from corner 0, and
+    // so does one that is not nearly flat and thus has no shape to keep. The view is
     // valid until the next call. Empty if the cutter's polygons together are so large and so jagged that it would take too long
     // (10^10 tests of a reflex corner against a triangle). Cost O(n + n r) for most, O(n^2 r) at worst, r reflex corners.
     // Method: ear clipping in the plane of the polygon's area vector. G. H. Meisters, "Polygons have ears", American Mathematical
@@ -27,7 +28,9 @@ class PolygonCutter {
     struct Point {
         double x, y;
     };
-    void project(std::span<const glm::dvec3> corners);
+    void project(std::span<const glm::dvec3> corners, const glm::dvec3& area);
+    void link(uint32_t count);
+    bool clip_ears(uint32_t count);
     double turn(uint32_t a, uint32_t b, uint32_t c) const;
     bool is_ear(uint32_t corner);
     void clip(uint32_t corner);
