@@ -146,24 +146,25 @@ inline mesh::Mesh random_mesh(uint32_t seed, uint32_t columns = 12, uint32_t row
     made.surfaces.resize(surface_count);
     for (uint32_t face = 0; face < made.faces.size(); ++face)
         made.face_surface[face] = (face / 2 % columns / patch * 7 + face / 2 / columns / patch * 3) % surface_count;
+    uint32_t calm = 8 + 120 * below(3);  // one face in so many is torn off, one corner in four times as many
     std::vector<uint32_t> shift(made.faces.size());
-    for (uint32_t& s : shift) s = below(6) == 0;
+    for (uint32_t& s : shift) s = below(calm) == 0;
     set_uvs(made, [&](uint32_t face, uint32_t corner) {
-        return glm::vec2(float(made.faces[face][corner] % 16 + (below(24) == 0 ? 1 : 0)), float(shift[face]));
+        return glm::vec2(float(made.faces[face][corner] % 16 + (below(4 * calm) == 0 ? 1 : 0)), float(shift[face]));
     });
 
     shade_flat(made);
-    uint32_t flat_count = uint32_t(made.normals.size()), facet_share = below(3);
+    uint32_t flat_count = uint32_t(made.normals.size()), facet_count = below(2) * below(uint32_t(made.faces.size()));
     made.normals.emplace_back(0, 0, 1);
-    for (FaceCorners& normal : made.face_normals)
-        if (below(3) >= facet_share) normal = {flat_count, flat_count, flat_count};
+    for (uint32_t face = facet_count; face < made.faces.size(); ++face)
+        made.face_normals[face] = {flat_count, flat_count, flat_count};
     made.colours = {{255, 255, 255, 255}, {9, 9, 9, 255}};
-    for (uint32_t face = 0; face < made.faces.size(); ++face) made.face_colours.push_back({0, 0, below(20) == 0 ? 1u : 0u});
+    for (uint32_t face = 0; face < made.faces.size(); ++face) made.face_colours.push_back({0, 0, below(4 * calm) == 0 ? 1u : 0u});
 
     std::vector<uint32_t> order(made.faces.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[below(uint32_t(i))]);
-    order.resize(order.size() - below(uint32_t(order.size() / 3)));
+    order.resize(order.size() - below(2) * below(uint32_t(order.size() / 3)));
     mesh::Mesh shuffled = made;
     auto pick = [&](auto& to, const auto& from) {
         to.clear();
