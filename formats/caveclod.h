@@ -147,7 +147,7 @@ Result<void> complete(Hierarchy& hierarchy);
 // How finely what is stored is stored.
 struct Precision {
     uint32_t position_bits = 14;  // 8..20, of the longest side of the box round all positions
-    uint32_t uv_bits = 14;        // 8..20, of the greater range
+    uint32_t uv_bits = 14;        // 8..16, of the greater range
     uint32_t normal_bits = 10;    // 6..16, of each octahedral coordinate
 };
 // What quantising changed at most.
