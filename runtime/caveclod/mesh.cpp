@@ -124,25 +124,16 @@ class MeshPacker {
         }
     }
 
-    // Spheres again hold those of what needs them after rounding.
     void pack_bounds() {
-        uint32_t count = h_.split_count();
-        std::vector<double> radius_m(h_.radius_m.begin(), h_.radius_m.end());
-        mesh_.bounds_.resize(count);
-        for (uint32_t i = count; i-- > 0;) {
-            Bounds& bounds = mesh_.bounds_[i];
+        const std::vector<float>& radii = mesh_.radius_by_code_;
+        for (uint32_t i = 0; i < h_.split_count(); ++i) {
             GridPosition at = steps_of_position(h_.grid, h_.positions_m[h_.owner[i]]);
+            Bounds bounds;
             bounds.middle = uint64_t(at.at[0]) | uint64_t(at.at[1]) << 21 | uint64_t(at.at[2]) << 42;
             bounds.error = uint16_t(code_of_error(h_.error_m[i]));
+            bounds.radius = uint16_t(std::lower_bound(radii.begin(), radii.end() - 1, h_.radius_m[i]) - radii.begin());
             bounds.cone = h_.cone[i];
-            const std::vector<float>& radii = mesh_.radius_by_code_;
-            bounds.radius = uint16_t(std::lower_bound(radii.begin(), radii.end() - 1, radius_m[i]) - radii.begin());
-            double own_m = radii[bounds.radius] * (1 + 1e-9);
-            for (uint32_t k = h_.need_begin[i]; k < h_.need_begin[i + 1]; ++k) {
-                uint32_t j = h_.needs[k];
-                double apart_m = glm::length(glm::dvec3(h_.positions_m[h_.owner[i]]) - glm::dvec3(h_.positions_m[h_.owner[j]]));
-                radius_m[j] = std::max(radius_m[j], apart_m + own_m);
-            }
+            mesh_.bounds_.push_back(bounds);
         }
     }
 

@@ -1,6 +1,7 @@
 #include "runtime/caveclod/refine.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 
 #include "formats/parallel.h"
@@ -9,21 +10,11 @@
 
 namespace overlook::caveclod {
 
-// How far ahead of the evaluation bounds are fetched.
-constexpr size_t kFetchAhead = 12;
-
 Refinement::Refinement(const Mesh& mesh) : mesh_(mesh), faces_(mesh.surface_count(), mesh.slot_bits()) {
-    for (Bits* bits : {&applied_, &open_, &listed_, &gliding_}) bits->assign((mesh.split_count() + 63) / 64, 0);
+    for (Bits* bits : {&applied_, &open_, &gliding_}) bits->assign((mesh.split_count() + 63) / 64, 0);
     for (uint32_t face = 0; face < mesh.base_face_count(); ++face)
         faces_.add(mesh.base_surface(face), face, mesh.base_faces()[face]);
     for (uint32_t root : mesh.roots()) open(root);
-}
-
-void Refinement::open(uint32_t split) {
-    put(open_, split, true);
-    if (has(listed_, split)) return;
-    put(listed_, split, true);
-    frontier_.push_back(split);
 }
 
 void Refinement::evaluate(Frame& frame, uint32_t split) {
@@ -53,20 +44,11 @@ void Refinement::evaluate(Frame& frame, uint32_t split) {
     }
 }
 
-// All that could change; what no longer could leaves the list.
+// All that could change, in order: their bounds are read from front to back.
 void Refinement::evaluate_all(Frame& frame) {
-    size_t kept = 0;
-    for (size_t k = 0; k < frontier_.size(); ++k) {
-        if (k + kFetchAhead < frontier_.size()) __builtin_prefetch(&mesh_.bounds(frontier_[k + kFetchAhead]));
-        uint32_t split = frontier_[k];
-        if (!has(open_, split)) {
-            put(listed_, split, false);
-            continue;
-        }
-        frontier_[kept++] = split;
-        evaluate(frame, split);
-    }
-    frontier_.resize(kept);
+    for (size_t word = 0; word < open_.size(); ++word)
+        for (uint64_t left = open_[word]; left != 0; left &= left - 1)
+            evaluate(frame, uint32_t(64 * word) + uint32_t(std::countr_zero(left)));
 }
 
 void Refinement::apply(Frame& frame, const Wish& wish) {
@@ -200,8 +182,8 @@ FrameReport Refinement::refine(const view::Camera& camera, const Settings& setti
 
 Refinement::Bytes Refinement::bytes() const {
     Bytes bytes;
-    for (const Bits* bits : {&applied_, &open_, &listed_, &gliding_}) bytes.fixed += bits->capacity() * sizeof(uint64_t);
-    bytes.active = frontier_.capacity() * sizeof(uint32_t) + faces_.bytes();
+    for (const Bits* bits : {&applied_, &open_, &gliding_}) bytes.fixed += bits->capacity() * sizeof(uint64_t);
+    bytes.active = faces_.bytes();
     bytes.glides = glide_vertices_.capacity() * sizeof(GlideVertex) + free_glide_slots_.capacity() * sizeof(uint32_t);
     for (const auto& [split, glide] : glides_) bytes.glides += sizeof(split) + sizeof(glide) + 2 * sizeof(void*) +
                                                                glide.slots.capacity() * sizeof(uint32_t);
@@ -212,6 +194,16 @@ void refine_all(std::span<Refinement* const> refinements, std::span<const view::
                 std::span<FrameReport> reports) {
     parallel_ranges(refinements.size(), 1,
                     [&](size_t i, size_t) { reports[i] = refinements[i]->refine(cameras[i], settings, dt_s); });
+}
+
+void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,
+                    const std::function<void(size_t camera)>& draw, std::span<FrameReport> reports) {
+    Settings at_once = settings;
+    at_once.most_operations = 0, at_once.glide_s = 0;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        reports[i] = shared.refine(cameras[i], at_once, 0);
+        draw(i);
+    }
 }
 
 }  // namespace overlook::caveclod

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -45,7 +46,7 @@ class Refinement {
     explicit Refinement(const Mesh& mesh);
 
     // Brings the faces nearer to what the camera asks for, by most_operations at most. dt_s >= 0: time since the last frame, for
-    // glides. Cost: O(evaluated) + O(operations * log(operations)).
+    // glides. Cost: O(splits / 64) + O(evaluated) + O(operations * log(operations)).
     FrameReport refine(const view::Camera& camera, const Settings& settings, double dt_s);
 
     const FaceSlots& faces() const { return faces_; }
@@ -88,7 +89,7 @@ class Refinement {
 
     struct Frame;  // what one call of refine() works with
 
-    void open(uint32_t split);
+    void open(uint32_t split) { put(open_, split, true); }
     void close(uint32_t split) { put(open_, split, false); }
     void evaluate(Frame& frame, uint32_t split);
     void evaluate_all(Frame& frame);
@@ -106,9 +107,8 @@ class Refinement {
     uint32_t take_glide_slot(const GlideVertex& vertex);
 
     const Mesh& mesh_;
-    // Of splits: applied; could be applied or undone now; stands in frontier_; is on its way.
-    Bits applied_, open_, listed_, gliding_;
-    std::vector<uint32_t> frontier_;
+    // Of splits: applied; could be applied or undone now; on its way.
+    Bits applied_, open_, gliding_;
     FaceSlots faces_;
     std::unordered_map<uint32_t, Glide> glides_;
     std::vector<GlideVertex> glide_vertices_;
@@ -122,5 +122,10 @@ class Refinement {
 // Refines each camera's own, several at once; the result is that of one after the other. All spans of one length.
 void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings, double dt_s,
                 std::span<FrameReport> reports);
+
+// The paper's comparison (Kram and Shaw 2002, 4.2), the variant `shared`: one refinement is brought to what each camera wants in turn,
+// every frame, whatever that takes (no budget of operations, nothing glides), and `draw(camera)` is called when it is there.
+void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,
+                    const std::function<void(size_t camera)>& draw, std::span<FrameReport> reports);
 
 }  // namespace overlook::caveclod

