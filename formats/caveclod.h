@@ -97,9 +97,9 @@ struct Hierarchy {
     // apply next, and never below finest_error_m.
     std::vector<float> error_m;
     // [S] All versions of all faces that i and whatever needs it, directly or not, ever touch lie within radius_m of the owner's
-    // position (the finest versions are the source). The sphere of a needed split holds that of i. By complete().
+    // position (the finest versions are the source). By complete().
     std::vector<float> radius_m;
-    // [S] Holds the normals of all those versions. A needed split's cone holds that of i. By complete().
+    // [S] Holds the normals of all those versions. By complete().
     std::vector<NormalCone> cone;
     // Compressed rows: split i needs needs[need_begin[i] .. need_begin[i + 1]), ascending, each before i. By complete(), from what
     // the splits touch; a baker may give others before (rows as here, or both empty), which stay.
@@ -147,7 +147,7 @@ Result<void> complete(Hierarchy& hierarchy);
 // How finely what is stored is stored.
 struct Precision {
     uint32_t position_bits = 14;  // 8..20, of the longest side of the box round all positions
-    uint32_t uv_bits = 14;        // 8..20, of the greater range
+    uint32_t uv_bits = 14;        // 8..16, of the greater range
     uint32_t normal_bits = 10;    // 6..16, of each octahedral coordinate
 };
 // What quantising changed at most.
@@ -166,10 +166,12 @@ enum class Codec : uint32_t {
     meshopt = 0,  // meshoptimizer's vertex codec, then zstd
     draco = 1,    // Draco's symbol coding (rANS)
 };
+// The smaller one, by measurement: of 31,200 triangles of hills with normals and uv 34.4 bits a triangle, meshopt 37.2.
+constexpr Codec kDefaultCodec = Codec::draco;
 
 // Adds the hierarchy's sections to a baked file: MINF, MBLK, MDIR and MSUR. Errors are rounded up (round_errors). Same hierarchy,
 // same bytes. Exit::our_bug if it is not quantised, complete and canonical: "a hierarchy to write has ...".
-Result<void> write(container::Writer& writer, const Hierarchy& hierarchy, Codec codec = Codec::meshopt);
+Result<void> write(container::Writer& writer, const Hierarchy& hierarchy, Codec codec = kDefaultCodec);
 
 // Reads a hierarchy, whole or its first blocks: any number of them, 0 being the coarsest cut alone, is a hierarchy that can be
 // drawn; its finest_error_m is then that of what is missing. The file may be hostile; every failure is Exit::bad_input and names

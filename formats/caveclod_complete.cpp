@@ -21,6 +21,15 @@ double angle_rad(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+// All that lies in it, by its corners.
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+
+    void take(const glm::dvec3& point) { low = glm::min(low, point), high = glm::max(high, point); }
+    void take(const Box& box) { low = glm::min(low, box.low), high = glm::max(high, box.high); }
+    double farthest(const glm::dvec3& from) const { return glm::length(glm::max(glm::abs(low - from), glm::abs(high - from))); }
+};
+
 // The least cone round two (Barequet and Elber 2005 in general; for two it lies on the great circle through their axes).
 void unite(WideCone& cone, const WideCone& other) {
     if (other.axis == glm::dvec3(0) || cone.half_rad >= std::numbers::pi) return;
@@ -60,6 +69,7 @@ class Completion {
         state_.add_positions(hierarchy_.positions_m.size());
         for (uint32_t face = 0; face < hierarchy_.base_face_count; ++face) add_face(face, MeshState::kNone);
         radius_.resize(hierarchy_.split_count());
+        boxes_.resize(hierarchy_.split_count());
         cones_.resize(hierarchy_.split_count());
         for (uint32_t i = 0; i < hierarchy_.split_count(); ++i)
             if (const char* fault = apply(i)) return refuse(i, fault);
@@ -94,7 +104,10 @@ class Completion {
         glm::dvec3 corners[3];
         for (size_t c = 0; c < 3; ++c) corners[c] = glm::dvec3(hierarchy_.positions_m[at[c]]);
         glm::dvec3 middle(hierarchy_.positions_m[hierarchy_.owner[split]]);
-        for (const glm::dvec3& corner : corners) radius_[split] = std::max(radius_[split], glm::length(corner - middle));
+        for (const glm::dvec3& corner : corners) {
+            radius_[split] = std::max(radius_[split], glm::length(corner - middle));
+            boxes_[split].take(corner);
+        }
         glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
         double length = glm::length(normal);
         if (length > 0) unite(cones_[split], {normal / length, 0});
@@ -146,20 +159,23 @@ class Completion {
         return nullptr;
     }
 
-    // From fine to coarse: what is needed holds what needs it.
+    // From fine to coarse: what is needed holds what needs it. Of the two spheres that do, by way of spheres and by way of boxes, the
+    // lesser.
     void saturate() {
         Hierarchy& h = hierarchy_;
         h.radius_m.resize(radius_.size());
         h.cone.resize(radius_.size());
         for (uint32_t i = h.split_count(); i-- > 0;) {
+            glm::dvec3 middle(h.positions_m[h.owner[i]]);
+            if (boxes_[i].low.x <= boxes_[i].high.x) radius_[i] = std::min(radius_[i], boxes_[i].farthest(middle));
             h.radius_m[i] = float(radius_[i] * kRoundedUp);
             radius_[i] = std::max(double(h.radius_m[i]), radius_[i]);
             h.cone[i] = cone_of(cones_[i].axis, cones_[i].half_rad);
-            glm::dvec3 middle(h.positions_m[h.owner[i]]);
             for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k) {
                 uint32_t needed = h.needs[k];
                 double reach = glm::length(middle - glm::dvec3(h.positions_m[h.owner[needed]])) + radius_[i];
                 radius_[needed] = std::max(radius_[needed], reach);
+                boxes_[needed].take(boxes_[i]);
                 unite(cones_[needed], cones_[i]);
             }
         }
@@ -169,6 +185,7 @@ class Completion {
     std::vector<uint32_t> given_begin_, given_, needs_;
     MeshState state_;
     std::vector<double> radius_;
+    std::vector<Box> boxes_;
     std::vector<WideCone> cones_;
 };
 

@@ -62,7 +62,7 @@ Result<void> read_grid(const Reader& file, std::span<const std::byte> bytes, Hie
     grid.position_bits = get(info_at::position_bits), grid.uv_bits = get(info_at::uv_bits);
     grid.normal_bits = get(info_at::normal_bits);
     is_fine = is_fine && is_between(grid.position_step_m, 1e-12, 1e9) && is_between(grid.uv_step, 1e-12, 1e9) &&
-              is_between(grid.position_bits, 8, 20) && is_between(grid.uv_bits, 8, 20) && is_between(grid.normal_bits, 6, 16);
+              is_between(grid.position_bits, 8, 20) && is_between(grid.uv_bits, 8, 16) && is_between(grid.normal_bits, 6, 16);
     if (!is_fine)
         return broken(file, 4, "steps of {} m from ({}, {}, {}) in {} bits, of uv {} in {} bits, and normals of {} bits",
                       grid.position_step_m, h.origin_m.x, h.origin_m.y, h.origin_m.z, grid.position_bits, grid.uv_step,

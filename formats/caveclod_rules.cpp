@@ -10,7 +10,7 @@ constexpr std::array<std::string_view, 19> kRules{
     "MINF is 128 bytes long.",
     "There is a position, a face, a group and a surface; no count is above 2^28, groups are no more than faces, surfaces at most "
     "65,536.",
-    "The origin, the lowest uv and all steps are finite, steps above 0; positions and uv have 8 to 20 bits, normals 6 to 16.",
+    "The origin, the lowest uv and all steps are finite, steps above 0; positions have 8 to 20 bits, uv 8 to 16, normals 6 to 16.",
     "Flags, codec and error codes are known ones, reserved numbers are 0.",
     "MSUR decodes to exactly the surfaces stated, with printable names of at most 4,096 bytes.",
     "MDIR, uncompressed, has an entry of 32 bytes for the base and for each block of 1 to 16,384 splits, in their order, all splits "

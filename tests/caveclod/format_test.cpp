@@ -126,20 +126,33 @@ TEST(BakedMesh, TakesFewBitsATriangle) {
     for (Codec codec : {Codec::meshopt, Codec::draco}) {
         double bits = 8.0 * double(synthetic::file_of(h, codec).size()) / double(h.face_positions.size());
         RecordProperty(codec == Codec::meshopt ? "bits_meshopt" : "bits_draco", std::to_string(bits));
-        EXPECT_LE(bits, 36);
+        std::printf("%s: %.2f bits a triangle\n", codec == Codec::meshopt ? "meshopt" : "draco", bits);
+        EXPECT_LE(bits, codec == kDefaultCodec ? 36 : 40);
     }
 }
 
-TEST(BakedMesh, NestsSpheresConesAndErrors) {
+TEST(BakedMesh, HoldsInEachSphereAllThatNeedsItsSplit) {
     Hierarchy h = synthetic::bake(synthetic::sphere(24));
-    for (uint32_t i = 0; i < h.split_count(); ++i) {
+    std::vector<std::vector<uint32_t>> dependents(h.split_count());
+    for (uint32_t i = 0; i < h.split_count(); ++i)
         for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k) {
-            uint32_t j = h.needs[k];
-            ASSERT_LT(j, i);
-            EXPECT_LE(h.error_m[i], h.error_m[j]);
-            double apart_m = glm::length(glm::dvec3(h.positions_m[h.owner[i]]) - glm::dvec3(h.positions_m[h.owner[j]]));
-            EXPECT_LE(apart_m + h.radius_m[i], h.radius_m[j] * (1 + 1e-6));
+            ASSERT_LT(h.needs[k], i);
+            EXPECT_LE(h.error_m[i], h.error_m[h.needs[k]]);
+            dependents[h.needs[k]].push_back(i);
         }
+    for (uint32_t i = 0; i < h.split_count(); i += 7) {
+        std::vector<bool> is_held(h.split_count(), false);
+        is_held[i] = true;
+        glm::dvec3 middle(h.positions_m[h.owner[i]]);
+        for (uint32_t j = i; j < h.split_count(); ++j) {
+            if (!is_held[j]) continue;
+            for (uint32_t dependent : dependents[j]) is_held[dependent] = true;
+            std::vector<uint32_t> touched = {h.owner[j], h.new_position(j)};
+            for (uint32_t face = h.added_begin[j]; face < h.added_begin[j + 1]; ++face)
+                touched.insert(touched.end(), h.face_positions[face].begin(), h.face_positions[face].end());
+            for (uint32_t p : touched) ASSERT_LE(glm::length(glm::dvec3(h.positions_m[p]) - middle), h.radius_m[i] * (1 + 1e-6));
+        }
+        EXPECT_LE(h.radius_m[i], 35);  // of a sphere of 20 m across
     }
 }
 
