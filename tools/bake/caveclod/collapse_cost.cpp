@@ -1,0 +1,104 @@
+#include "tools/bake/caveclod/collapse_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/parallel.h"
+
+namespace overlook::caveclod {
+namespace {
+
+constexpr double kFeatureWeight = 1;    // of a plane upright on a feature edge, over the squared length of the edge
+constexpr double kVolumeWeight = 0.5;   // of the mean signed offset
+constexpr double kLengthWeight = 1e-4;  // of the distance that the position moves: breaks ties where all is flat
+constexpr size_t kGrain = 4096;
+
+glm::dvec3 unit(const glm::dvec3& v) {
+    double length = glm::length(v);
+    return length > 0 ? v / length : glm::dvec3(0);
+}
+
+void add_face(const WorkingMesh& mesh, uint32_t corner, Quadric& quadric) {
+    glm::dvec3 a = mesh.at(mesh.position[corner]), b = mesh.at(mesh.position[next_corner(corner)]);
+    glm::dvec3 c = mesh.at(mesh.position[previous_corner(corner)]);
+    glm::dvec3 cross = glm::cross(b - a, c - a), normal = unit(cross);
+    quadric.add_plane(normal, -glm::dot(normal, a), glm::length(cross) / 2);
+    auto add_upright = [&](uint32_t facing, const glm::dvec3& end) {
+        if (!mesh.is_feature[mesh.edge[facing]]) return;
+        glm::dvec3 along = end - a, upright = unit(glm::cross(normal, along));
+        quadric.add_plane(upright, -glm::dot(upright, a), glm::dot(along, along) * kFeatureWeight);
+    };
+    add_upright(previous_corner(corner), b);
+    add_upright(next_corner(corner), c);
+}
+
+// Expected cost of every neighbour in the star, in metres.
+void estimate(const WorkingMesh& mesh, const Quadric& quadric, uint32_t position, const Star& star,
+              std::array<Candidate, kMostValence + 1>& candidates, uint32_t count) {
+    glm::dvec3 from = mesh.at(position), area_vector(0);
+    double area = 0;
+    for (uint32_t i = 0; i < star.count; ++i) {
+        glm::dvec3 cross = glm::cross(mesh.at(star.link[i]) - from, mesh.at(star.link[i + 1]) - from);
+        area_vector += cross, area += glm::length(cross);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        glm::dvec3 to = mesh.at(star.link[i]), step = to - from;
+        double mean2 = quadric.weight > 0 ? std::max(quadric.at(to), 0.0) / quadric.weight : 0;
+        double offset = area > 0 ? std::abs(glm::dot(area_vector, step)) / (3 * area) : 0;
+        candidates[i] = {std::sqrt(mean2) + kVolumeWeight * offset +
+                             kLengthWeight * std::sqrt(mean2 + offset * offset + 1e-12 * glm::dot(step, step)),
+                         star.link[i]};
+    }
+}
+
+}  // namespace
+
+void Quadric::add_plane(const glm::dvec3& n, double d, double w) {
+    xx += w * n.x * n.x, xy += w * n.x * n.y, xz += w * n.x * n.z, yy += w * n.y * n.y, yz += w * n.y * n.z, zz += w * n.z * n.z;
+    x += w * d * n.x, y += w * d * n.y, z += w * d * n.z, one += w * d * d, weight += w;
+}
+
+void Quadric::add(const Quadric& o) {
+    xx += o.xx, xy += o.xy, xz += o.xz, yy += o.yy, yz += o.yz, zz += o.zz;
+    x += o.x, y += o.y, z += o.z, one += o.one, weight += o.weight;
+}
+
+double Quadric::at(const glm::dvec3& p) const {
+    return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) + p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) +
+           one;
+}
+
+std::vector<Quadric> make_quadrics(const WorkingMesh& mesh) {
+    std::vector<Quadric> quadrics(mesh.some_corner.size());
+    parallel_ranges(quadrics.size(), kGrain, [&](size_t begin, size_t end) {
+        Star star;
+        for (size_t p = begin; p < end; ++p) {
+            if (!mesh.is_alive(uint32_t(p)) || !gather_star(mesh, uint32_t(p), star)) continue;
+            for (uint32_t i = 0; i < star.count; ++i) add_face(mesh, star.corner[i], quadrics[p]);
+        }
+    });
+    return quadrics;
+}
+
+Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position) {
+    Star star;
+    if (mesh.kind[position] == PositionKind::rigid || !gather_star(mesh, position, star)) return {};
+    std::array<Candidate, kMostValence + 1> candidates;
+    uint32_t count = star.count + uint32_t(!star.is_closed);
+    estimate(mesh, quadrics[position], position, star, candidates, count);
+    std::array<uint32_t, kMostValence + 1> order;
+    for (uint32_t i = 0; i < count; ++i) order[i] = i;
+    std::sort(order.begin(), order.begin() + count, [&](uint32_t a, uint32_t b) {
+        return candidates[a].cost_m != candidates[b].cost_m ? candidates[a].cost_m < candidates[b].cost_m
+                                                            : candidates[a].kept < candidates[b].kept;
+    });
+    Fan fan;
+    TurnedVertices turned;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (!fan_of(star, position, order[i], fan) || !keeps_groups(mesh, fan, turned)) continue;
+        if (keeps_orientation(mesh, fan) && keeps_topology(mesh, fan)) return candidates[order[i]];
+    }
+    return {};
+}
+
+}  // namespace overlook::caveclod
