@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "formats/parallel.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double kFeatureWeight = 1;    // of a plane upright on a feature edge, over the squared length of the edge
 constexpr double kVolumeWeight = 0.5;   // of the mean signed offset
-constexpr double kLengthWeight = 1e-4;  // of the distance that the position moves: breaks ties where all is flat
+constexpr double kLengthWeight = 1e-9;  // of the distance that the position moves: breaks ties where all is flat
 constexpr size_t kGrain = 4096;
 
 glm::dvec3 unit(const glm::dvec3& v) {
@@ -32,23 +33,35 @@ void add_face(const WorkingMesh& mesh, uint32_t corner, Quadric& quadric) {
     add_upright(next_corner(corner), c);
 }
 
-// Expected cost of every neighbour in the star, in metres.
-void estimate(const WorkingMesh& mesh, const Quadric& quadric, uint32_t position, const Star& star,
-              std::array<Candidate, kMostValence + 1>& candidates, uint32_t count) {
-    glm::dvec3 from = mesh.at(position), area_vector(0);
-    double area = 0;
+// The star of a position that may go, with the expected cost of each of its edges.
+struct Choices {
+    Star star;
+    uint32_t count = 0;
+    std::array<double, kMostValence + 1> cost_m;
+};
+
+bool estimate(const WorkingMesh& mesh, const Quadric& quadric, uint32_t position, Choices& choices) {
+    Star& star = choices.star;
+    if (mesh.kind[position] == PositionKind::rigid || !gather_star(mesh, position, star)) return false;
+    glm::dvec3 from = mesh.at(position), area_vector(0), before = mesh.at(star.link[0]) - from;
+    double area2 = 0;
     for (uint32_t i = 0; i < star.count; ++i) {
-        glm::dvec3 cross = glm::cross(mesh.at(star.link[i]) - from, mesh.at(star.link[i + 1]) - from);
-        area_vector += cross, area += glm::length(cross);
+        glm::dvec3 after = mesh.at(star.link[i + 1]) - from, cross = glm::cross(before, after);
+        area_vector += cross, area2 += std::sqrt(glm::dot(cross, cross));
+        before = after;
     }
-    for (uint32_t i = 0; i < count; ++i) {
+    choices.count = star.count + uint32_t(!star.is_closed);
+    for (uint32_t i = 0; i < choices.count; ++i) {
         glm::dvec3 to = mesh.at(star.link[i]), step = to - from;
         double mean2 = quadric.weight > 0 ? std::max(quadric.at(to), 0.0) / quadric.weight : 0;
-        double offset = area > 0 ? std::abs(glm::dot(area_vector, step)) / (3 * area) : 0;
-        candidates[i] = {std::sqrt(mean2) + kVolumeWeight * offset +
-                             kLengthWeight * std::sqrt(mean2 + offset * offset + 1e-12 * glm::dot(step, step)),
-                         star.link[i]};
+        double offset = area2 > 0 ? std::abs(glm::dot(area_vector, step)) / (3 * area2) : 0;
+        choices.cost_m[i] = std::sqrt(mean2) + kVolumeWeight * offset + kLengthWeight * std::sqrt(glm::dot(step, step));
     }
+    return true;
+}
+
+uint32_t cheapest(const Choices& choices) {
+    return uint32_t(std::min_element(choices.cost_m.begin(), choices.cost_m.begin() + choices.count) - choices.cost_m.begin());
 }
 
 }  // namespace
@@ -81,24 +94,25 @@ std::vector<Quadric> make_quadrics(const WorkingMesh& mesh) {
 }
 
 Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position) {
-    Star star;
-    if (mesh.kind[position] == PositionKind::rigid || !gather_star(mesh, position, star)) return {};
-    std::array<Candidate, kMostValence + 1> candidates;
-    uint32_t count = star.count + uint32_t(!star.is_closed);
-    estimate(mesh, quadrics[position], position, star, candidates, count);
-    std::array<uint32_t, kMostValence + 1> order;
-    for (uint32_t i = 0; i < count; ++i) order[i] = i;
-    std::sort(order.begin(), order.begin() + count, [&](uint32_t a, uint32_t b) {
-        return candidates[a].cost_m != candidates[b].cost_m ? candidates[a].cost_m < candidates[b].cost_m
-                                                            : candidates[a].kept < candidates[b].kept;
-    });
+    Choices choices;
+    if (!estimate(mesh, quadrics[position], position, choices)) return {};
     Fan fan;
     TurnedVertices turned;
-    for (uint32_t i = 0; i < count; ++i) {
-        if (!fan_of(star, position, order[i], fan) || !keeps_groups(mesh, fan, turned)) continue;
-        if (keeps_orientation(mesh, fan) && keeps_topology(mesh, fan)) return candidates[order[i]];
+    for (uint32_t tries = 0; tries < choices.count; ++tries) {
+        uint32_t at = cheapest(choices);
+        bool is_allowed = fan_of(choices.star, position, at, fan) && keeps_groups(mesh, fan, turned) &&
+                          keeps_orientation(mesh, fan) && keeps_topology(mesh, fan);
+        if (is_allowed) return {choices.cost_m[at], choices.star.link[at]};
+        choices.cost_m[at] = std::numeric_limits<double>::infinity();
     }
     return {};
+}
+
+Candidate guess_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position) {
+    Choices choices;
+    if (!estimate(mesh, quadrics[position], position, choices)) return {};
+    uint32_t at = cheapest(choices);
+    return {choices.cost_m[at], choices.star.link[at]};
 }
 
 }  // namespace overlook::caveclod

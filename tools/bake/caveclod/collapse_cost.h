@@ -32,4 +32,8 @@ struct Candidate {
 // into `position`, and the mean signed offset of the new faces (the volume they lose or win, over their area).
 Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position);
 
+// The same, of all its edges, allowed or not: never dearer than find_candidate's, and several times faster found. None where the
+// position may not go at all.
+Candidate guess_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position);
+
 }  // namespace overlook::caveclod

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -10,19 +11,27 @@
 namespace overlook::caveclod {
 namespace {
 
-constexpr size_t kPositionGrain = 2048, kFanGrain = 64;
+constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
+constexpr uint8_t kNothing = 0, kGuess = 1, kAllowed = 2;
 // A pass takes from the cheapest this share of all candidates; those measured worse than kWorst times its limit wait.
 constexpr double kShareOfPass = 0.4, kWorst = 2.5;
 // Below this share of the mesh's size errors are rounding, and all the same.
 constexpr double kLeastLimitShare = 1e-8;
+// The queue keeps costs as float: what waited must not miss its limit by their rounding.
+constexpr double kFloatAllowance = 1 + 1e-6;
 constexpr double kForbidden_m = std::numeric_limits<double>::infinity();
 
-bool prepare(const WorkingMesh& mesh, uint32_t gone, uint32_t kept, Fan& fan) {
-    Star star;
-    if (!gather_star(mesh, gone, star)) return false;
-    uint32_t at = uint32_t(std::find(star.link.begin(), star.link.begin() + star.count + 1, kept) - star.link.begin());
-    return fan_of(star, gone, at, fan);
-}
+// Adds the time that it lives to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum_s) : sum_s_(sum_s), begin_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() { sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+
+  private:
+    double& sum_s_;
+    std::chrono::steady_clock::time_point begin_;
+};
 
 }  // namespace
 
@@ -36,16 +45,15 @@ Passes::Passes(WorkingMesh& mesh, SimplifyReport& report)
     for (uint32_t p = 0; p < position_count; ++p)
         if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
     candidates_.resize(position_count);
-    is_stale_.assign(position_count, 1);
+    known_.assign(position_count, kNothing);
     touched_in_.assign(position_count, 0);
     target_in_.assign(position_count, 0);
 }
 
 bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
     ++pass_;
-    find_candidates();
-    raise_limit();
-    if (queue_.empty() || face_count_ <= least_face_count) return false;
+    find_queue();
+    if (limit_m_ == kForbidden_m || face_count_ <= least_face_count) return false;
     select(least_face_count);
     measure();
     decide(log);
@@ -56,28 +64,59 @@ bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
     return true;
 }
 
-void Passes::find_candidates() {
+void Passes::find_queue() {
+    Stopwatch watch(report_.candidates_s);
+    guess_candidates();
+    raise_limit();
+    check_candidates();
+}
+
+void Passes::guess_candidates() {
     parallel_ranges(alive_.size(), kPositionGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             uint32_t p = alive_[i];
-            if (is_stale_[p] == 0) continue;
-            candidates_[p] = find_candidate(mesh_, quadrics_, p);
-            is_stale_[p] = 0;
+            if (known_[p] != kNothing) continue;
+            candidates_[p] = guess_candidate(mesh_, quadrics_, p);
+            known_[p] = kGuess;
         }
     });
 }
 
-// The queue holds the candidates within the limit, cheapest first.
+// The queue holds the candidates within the limit.
 void Passes::raise_limit() {
     queue_.clear();
     for (uint32_t p : alive_)
         if (candidates_[p].kept != kNone) queue_.emplace_back(float(candidates_[p].cost_m), p);
+    if (queue_.empty()) limit_m_ = kForbidden_m;
     if (queue_.empty()) return;
     auto bound = queue_.begin() + ptrdiff_t(double(queue_.size() - 1) * kShareOfPass);
     std::nth_element(queue_.begin(), bound, queue_.end());
     limit_m_ = std::max(limit_m_, double(bound->first));
     std::erase_if(queue_, [&](const auto& entry) { return double(entry.first) > limit_m_; });
+}
+
+// Only what this pass might take is looked at closely. Cheapest first then.
+void Passes::check_candidates() {
+    parallel_ranges(queue_.size(), kCheckGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            uint32_t p = queue_[i].second;
+            if (known_[p] == kAllowed) continue;
+            candidates_[p] = find_candidate(mesh_, quadrics_, p);
+            known_[p] = kAllowed;
+            queue_[i].first =
+                candidates_[p].kept == kNone ? std::numeric_limits<float>::infinity() : float(candidates_[p].cost_m);
+        }
+    });
+    std::erase_if(queue_, [&](const auto& entry) { return double(entry.first) > limit_m_; });
     std::sort(queue_.begin(), queue_.end());
+}
+
+void Passes::prepare(const Chosen& chosen, TurnedFan& prepared) const {
+    Star star;
+    gather_star(mesh_, chosen.gone, star);
+    uint32_t at = uint32_t(std::find(star.link.begin(), star.link.begin() + star.count + 1, chosen.kept) - star.link.begin());
+    fan_of(star, chosen.gone, at, prepared.fan);
+    keeps_groups(mesh_, prepared.fan, prepared.turned);
 }
 
 // Collapses of one pass share no face, and none changes the star of a position that another collapses into: so each stays allowed
@@ -98,6 +137,7 @@ bool Passes::claim(uint32_t gone, uint32_t kept) {
 }
 
 void Passes::select(uint64_t least_face_count) {
+    Stopwatch watch(report_.selection_s);
     chosen_.clear();
     first_fan_ = next_fan_;
     uint64_t most = (face_count_ - least_face_count + 1) / 2;
@@ -109,18 +149,20 @@ void Passes::select(uint64_t least_face_count) {
 }
 
 void Passes::measure() {
+    Stopwatch watch(report_.measuring_s);
+    fans_.resize(std::max(fans_.size(), chosen_.size()));
     parallel_ranges(chosen_.size(), kFanGrain, [&](size_t begin, size_t end) {
         MapChanges& changes = changes_[begin / kFanGrain];
         changes.splices.clear(), changes.added.clear();
-        Fan fan;
         for (size_t i = begin; i < end; ++i) {
-            prepare(mesh_, chosen_[i].gone, chosen_[i].kept, fan);
-            chosen_[i].measured = measure_collapse(map_, mesh_, fan, first_fan_ + uint32_t(i), changes);
+            prepare(chosen_[i], fans_[i]);
+            chosen_[i].measured = measure_collapse(map_, mesh_, fans_[i].fan, first_fan_ + uint32_t(i), changes);
         }
     });
 }
 
-void Passes::record(const Chosen& chosen, const Fan& fan, const TurnedVertices& turned, CollapseLog& log) const {
+void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const {
+    const Fan& fan = prepared.fan;
     float error_m = float(chosen.measured.error_m);
     if (double(error_m) < chosen.measured.error_m) error_m = std::nextafter(error_m, std::numeric_limits<float>::infinity());
     log.gone.push_back(chosen.gone);
@@ -128,28 +170,26 @@ void Passes::record(const Chosen& chosen, const Fan& fan, const TurnedVertices& 
     log.error_m.push_back(error_m);
     for (uint32_t i = 0; i < fan.count; ++i) {
         bool stays = i >= fan.first && i <= fan.last;
-        log.turns.push_back({fan.corner[i], mesh_.vertex[fan.corner[i]], stays ? turned[i] : kNone});
+        log.turns.push_back({fan.corner[i], mesh_.vertex[fan.corner[i]], stays ? prepared.turned[i] : kNone});
     }
     log.turn_begin.push_back(uint32_t(log.turns.size()));
 }
 
 void Passes::decide(CollapseLog& log) {
-    Fan fan;
-    TurnedVertices turned;
-    for (Chosen& chosen : chosen_) {
+    Stopwatch watch(report_.selection_s);
+    for (size_t i = 0; i < chosen_.size(); ++i) {
+        Chosen& chosen = chosen_[i];
         Candidate& candidate = candidates_[chosen.gone];
         chosen.is_made = chosen.measured.faces_its_source && chosen.measured.error_m <= kWorst * limit_m_;
         if (!chosen.measured.faces_its_source) {
             candidate = {kForbidden_m, kNone};
             ++report_.refused_count;
         } else if (!chosen.is_made) {
-            candidate.cost_m = chosen.measured.error_m / kWorst;
+            candidate.cost_m = chosen.measured.error_m / kWorst * kFloatAllowance;
             ++report_.postponed_count;
         } else {
-            prepare(mesh_, chosen.gone, chosen.kept, fan);
-            keeps_groups(mesh_, fan, turned);
-            record(chosen, fan, turned, log);
-            face_count_ -= fan.count - (fan.last + 1 - fan.first);
+            record(chosen, fans_[i], log);
+            face_count_ -= fans_[i].fan.count - (fans_[i].fan.last + 1 - fans_[i].fan.first);
         }
     }
 }
@@ -166,16 +206,13 @@ void Passes::provide_crossings() {
 }
 
 void Passes::apply() {
+    Stopwatch watch(report_.applying_s);
     parallel_ranges(chosen_.size(), kFanGrain, [&](size_t begin, size_t end) {
-        Fan fan;
-        TurnedVertices turned;
         for (size_t i = begin; i < end; ++i) {
             const Chosen& chosen = chosen_[i];
             if (!chosen.is_made) continue;
-            prepare(mesh_, chosen.gone, chosen.kept, fan);
-            keeps_groups(mesh_, fan, turned);
-            apply_to_map(map_, mesh_, fan, chosen.measured, changes_[begin / kFanGrain]);
-            apply_collapse(mesh_, fan, turned);
+            apply_to_map(map_, mesh_, fans_[i].fan, chosen.measured, changes_[begin / kFanGrain]);
+            apply_collapse(mesh_, fans_[i].fan, fans_[i].turned);
             quadrics_[chosen.kept].add(quadrics_[chosen.gone]);
             mark_around(chosen.kept);
         }
@@ -185,9 +222,9 @@ void Passes::apply() {
 void Passes::mark_around(uint32_t position) {
     Star star;
     if (!gather_star(mesh_, position, star)) return;
-    is_stale_[position] = 1;
+    known_[position] = kNothing;
     for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i)
-        std::atomic_ref(is_stale_[star.link[i]]).store(1, std::memory_order_relaxed);
+        std::atomic_ref(known_[star.link[i]]).store(kNothing, std::memory_order_relaxed);
 }
 
 }  // namespace overlook::caveclod

@@ -26,13 +26,21 @@ class Passes {
         bool is_made = false;
     };
 
-    void find_candidates();
+    struct TurnedFan {
+        Fan fan;
+        TurnedVertices turned;
+    };
+
+    void find_queue();
+    void guess_candidates();
     void raise_limit();
+    void check_candidates();
     void select(uint64_t least_face_count);
     bool claim(uint32_t gone, uint32_t kept);
+    void prepare(const Chosen& chosen, TurnedFan& prepared) const;
     void measure();
     void decide(CollapseLog& log);
-    void record(const Chosen& chosen, const Fan& fan, const TurnedVertices& turned, CollapseLog& log) const;
+    void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const;
     void provide_crossings();
     void apply();
     void mark_around(uint32_t position);
@@ -46,11 +54,12 @@ class Passes {
 
     std::vector<uint32_t> alive_;                   // positions that may still go
     std::vector<Candidate> candidates_;             // [P]
-    std::vector<uint8_t> is_stale_;                 // [P] the candidate must be found anew
+    std::vector<uint8_t> known_;                    // [P] the candidate must be found anew
     std::vector<uint32_t> touched_in_, target_in_;  // [P] the last pass that changed the position's star, or collapsed into it
     uint32_t pass_ = 0, next_fan_ = 0;
     std::vector<std::pair<float, uint32_t>> queue_;
     std::vector<Chosen> chosen_;
+    std::vector<TurnedFan> fans_;      // of chosen_
     std::vector<MapChanges> changes_;  // one for each block of chosen_
     uint32_t first_fan_ = 0;
 };

@@ -27,7 +27,7 @@ uint32_t corner_at_new_border(const Fan& fan) {
 
 uint32_t new_label(const SurfaceMap& map, const Fan& fan, uint32_t position, uint32_t place) {
     uint32_t slot = map.label[position] == kNone ? (fan.is_closed ? 3u : kNone) : map.label[position] & 3u;
-    if (slot == 3) return (fan.corner[map.sector[position]] | 3u);
+    if (slot == 3) return (fan.corner[map.placement[position].place] | 3u);
     bool is_on_link = slot != kNone && slot == (fan.corner[place] & 3u);
     return is_on_link ? corner_at_link_edge(fan, place) : corner_at_new_border(fan);
 }
@@ -93,7 +93,7 @@ SurfaceMap make_surface_map(const WorkingMesh& mesh) {
     map.first_on_cut.assign(edge_count, kNone);
     map.label.assign(position_count, kNone);
     map.next_in_face.assign(position_count, kNone);
-    map.sector.assign(position_count, 0);
+    map.placement.assign(position_count, {});
     map.first_in_face.assign(face_count, kNone);
     map.fan_of_face.assign(face_count, kNone);
     map.place_in_fan.assign(face_count, 0);

@@ -36,6 +36,10 @@ struct SourceEnd {
     uint32_t edge = kNone, other = kNone;
 };
 
+struct alignas(8) Placement {
+    uint32_t fan = kNone, place = 0;
+};
+
 struct SurfaceMap {
     std::span<const glm::vec3> positions_m;     // [P]
     std::vector<std::array<uint32_t, 2>> ends;  // [E] positions of each source edge
@@ -49,11 +53,11 @@ struct SurfaceMap {
     std::vector<uint32_t> label;
     std::vector<uint32_t> first_in_face;  // [F] positions of each face,
     std::vector<uint32_t> next_in_face;   // [P] and which come next
-    // Written while collapses are measured: whose fan each face is in, its number there; each position's new face, as number
-    // there.
+    // Written while collapses are measured: whose fan each face is in, its number there; the last fan that each position was in, and
+    // which of its faces would have the position afterwards.
     std::vector<uint32_t> fan_of_face;  // [F]
     std::vector<uint8_t> place_in_fan;  // [F]
-    std::vector<uint8_t> sector;        // [P]
+    std::vector<Placement> placement;   // [P]
 };
 
 SurfaceMap make_surface_map(const WorkingMesh& mesh);

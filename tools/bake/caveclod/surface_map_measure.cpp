@@ -1,5 +1,6 @@
 // The part of the surface map that decides: where positions and crossings go when a fan changes, and how far that is.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "tools/bake/caveclod/distances.h"
@@ -31,35 +32,50 @@ class FanMeasure {
 
   private:
     glm::dvec3 at(uint32_t p) const { return glm::dvec3(map_.positions_m[p]); }
+    // Other fans' positions may be placed at the same time.
+    Placement placement_of(uint32_t p) const { return std::atomic_ref(map_.placement[p]).load(std::memory_order_relaxed); }
     bool is_in_fan(uint32_t face) const { return map_.fan_of_face[face] == number_; }
-    bool is_inside(uint32_t p) const { return map_.label[p] != kNone ? is_in_fan(map_.label[p] / kCorners) : p == fan_.gone; }
 
     void place_positions() {
         for (uint32_t i = fan_.first; i <= fan_.last; ++i) {
             probes_[i] = probe_of(kept_, mesh_.at(fan_.link[i]), mesh_.at(fan_.link[i + 1]));
             area_vectors_[i] = glm::dvec3(0);
+            if (i > fan_.first) beyond_spoke_[i] = glm::cross(probes_[i - 1].normal + probes_[i].normal, probes_[i].b - kept_);
         }
         changes_.inside.clear();
+        if (fan_.is_closed)
+            place_in_nearest(fan_.gone);
+        else
+            place_on_border(fan_.gone);
         for (uint32_t i = 0; i < fan_.count; ++i) {
             uint32_t face = fan_.corner[i] / kCorners;
             map_.place_in_fan[face] = uint8_t(i);
             for (uint32_t v = map_.first_in_face[face]; v != kNone; v = map_.next_in_face[v]) place_position(v, i);
         }
-        if (fan_.is_closed)
-            place_inside(fan_.gone);
-        else
-            place_on_border(fan_.gone);
     }
 
     void place_position(uint32_t v, uint32_t face) {
         uint32_t slot = map_.label[v] & 3u;
-        if (slot == 3) return place_inside(v);
+        if (slot == 3) return place_inside(v, fan_.nearest_staying(face));
         if (slot != (fan_.corner[face] & 3u)) return place_on_border(v);
-        changes_.inside.push_back(v);
-        map_.sector[v] = uint8_t(fan_.nearest_staying(face));
+        place(v, fan_.nearest_staying(face), 0);
     }
 
-    void place_inside(uint32_t v) {
+    // The face between the spokes that v is between. Only where that would raise the error is the nearest one looked for.
+    void place_inside(uint32_t v, uint32_t sector) {
+        glm::dvec3 p = at(v), from_kept = p - kept_;
+        uint32_t start = sector;
+        while (sector < fan_.last && glm::dot(beyond_spoke_[sector + 1], from_kept) > 0) ++sector;
+        if (sector == start)
+            while (sector > fan_.first && glm::dot(beyond_spoke_[sector], from_kept) < 0) --sector;
+        double distance2 = distance2_to_triangle(p, probes_[sector]);
+        if (distance2 > greatest2_)
+            place_in_nearest(v);
+        else
+            place(v, sector, distance2);
+    }
+
+    void place_in_nearest(uint32_t v) {
         glm::dvec3 p = at(v);
         double least2 = distance2_to_triangle(p, probes_[fan_.first]);
         uint32_t nearest = fan_.first;
@@ -78,7 +94,7 @@ class FanMeasure {
 
     void place(uint32_t v, uint32_t sector, double distance2) {
         changes_.inside.push_back(v);
-        map_.sector[v] = uint8_t(sector);
+        std::atomic_ref(map_.placement[v]).store(Placement{number_, sector}, std::memory_order_relaxed);
         area_vectors_[sector] += glm::dvec3(map_.area_vector_m2[v]);
         greatest2_ = std::max(greatest2_, distance2);
     }
@@ -90,19 +106,23 @@ class FanMeasure {
     }
 
     void place_crossings() {
-        for (uint32_t v : changes_.inside)
+        for (uint32_t v : changes_.inside) {
+            uint32_t sector = map_.placement[v].place;
             for (uint32_t i = map_.star_begin[v]; i < map_.star_begin[v + 1]; ++i) {
                 auto [edge, other] = map_.star[i];
-                bool is_other_inside = is_inside(other);
-                if (is_other_inside && other < v) continue;
-                bool is_plain = map_.first_on_source[edge] == kNone && is_other_inside && map_.sector[v] == map_.sector[other];
+                Placement there = placement_of(other);
+                if (there.fan == number_ && other < v) continue;
+                bool is_plain = there.fan == number_ && there.place == sector && map_.first_on_source[edge] == kNone;
                 if (!is_plain) cross(edge);
             }
+        }
         for (uint32_t place = 0; place < fan_.count; ++place) {
             uint32_t spoke = mesh_.edge[previous_corner(fan_.corner[place])];
             for (uint32_t c = map_.first_on_cut[spoke]; c != kNone; c = map_.crossings[c].next_on_cut) {
                 uint32_t edge = map_.crossings[c].source_edge;
-                if (!is_inside(map_.ends[edge][0]) && !is_inside(map_.ends[edge][1]) && first_inside(edge) == c) cross(edge);
+                bool has_end_inside =
+                    placement_of(map_.ends[edge][0]).fan == number_ || placement_of(map_.ends[edge][1]).fan == number_;
+                if (!has_end_inside && first_inside(edge) == c) cross(edge);
             }
         }
     }
@@ -123,7 +143,7 @@ class FanMeasure {
 
     // Where along the fan the end p of a source edge is.
     int level_of_end(uint32_t p) const {
-        if (is_inside(p)) return 2 * int(map_.sector[p]);
+        if (Placement there = placement_of(p); there.fan == number_) return 2 * int(there.place);
         if (p == fan_.kept) return kApex;
         auto found = std::find(fan_.link.begin(), fan_.link.begin() + fan_.count + 1, p);
         return 2 * int(found - fan_.link.begin()) - 1;
@@ -138,9 +158,10 @@ class FanMeasure {
     };
 
     bool begins_inside(uint32_t a, uint32_t b, uint32_t first) const {
-        if (map_.label[a] != kNone || a == fan_.gone) return is_inside(a);
+        if (placement_of(a).fan == number_) return true;
+        if (map_.label[a] != kNone) return false;
         uint32_t face = kNone;
-        return first == kNone ? is_inside(b) : faces_in_fan(map_.crossings[first].cut_edge, face) == 2;
+        return first == kNone ? placement_of(b).fan == number_ : faces_in_fan(map_.crossings[first].cut_edge, face) == 2;
     }
 
     void cross(uint32_t source_edge) {
@@ -199,6 +220,7 @@ class FanMeasure {
     double greatest2_ = 0;
     std::array<TriangleProbe, kMostValence> probes_;
     std::array<glm::dvec3, kMostValence> area_vectors_;
+    std::array<glm::dvec3, kMostValence> beyond_spoke_;  // points from the spoke before a face into it
 };
 
 }  // namespace

@@ -36,27 +36,29 @@ void drop_face(WorkingMesh& mesh, const Fan& fan, uint32_t going, uint32_t neigh
     join(mesh, side, mesh.opposite[corner], stays);
 }
 
+// The first face of an open star: the one from whose border edge the others follow counter-clockwise.
+uint32_t first_of_open(const WorkingMesh& mesh, uint32_t corner) {
+    for (uint32_t across = mesh.opposite[previous_corner(corner)]; across != kNone;
+         across = mesh.opposite[previous_corner(corner)])
+        corner = previous_corner(across);
+    return corner;
+}
+
 }  // namespace
 
 bool gather_star(const WorkingMesh& mesh, uint32_t position, Star& star) {
     uint32_t begin = mesh.some_corner[position], corner = begin;
-    star.is_closed = true;
-    for (uint32_t steps = 0;; ++steps) {
-        uint32_t across = mesh.opposite[previous_corner(corner)];
-        if (across == kNone) {
-            star.is_closed = false;
-            break;
-        }
-        corner = previous_corner(across);
-        if (corner == begin) break;
-        if (steps == kMostValence) return false;
-    }
-    begin = corner, star.count = 0;
+    star.is_closed = true, star.count = 0;
     while (true) {
         if (star.count == kMostValence) return false;
         star.corner[star.count] = corner;
         star.link[star.count++] = mesh.position[next_corner(corner)];
         uint32_t across = mesh.opposite[next_corner(corner)];
+        if (across == kNone && star.is_closed) {
+            star.is_closed = false, star.count = 0;
+            begin = corner = first_of_open(mesh, begin);
+            continue;
+        }
         star.link[star.count] = mesh.position[previous_corner(corner)];
         if (across == kNone) return true;
         corner = next_corner(across);
