@@ -5,6 +5,7 @@
 
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/cut.h"
+#include "tools/bake/caveclod/prove_cuts.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -76,6 +77,34 @@ TEST(StatedError, IsFoundBrokenWhenHalved) {
     Applied applied = random_cut(baked.hierarchy, 200, 3);
     Distance measured = two_sided_distance(tree_of_cut(baked.hierarchy, applied), source, 0.05, 1e-6, 2000);
     EXPECT_GT(measured.least_m, stated_error_m(baked.hierarchy, applied) / 2);
+}
+
+TEST(CutsProof, HoldsForTwoThousandCuts) {
+    std::vector<Baked> all;
+    all.push_back(bake(test::grid(30, 25, test::rough_m)));
+    all.push_back(bake(test::grid(24, 24, test::rough_m), 12));
+    all.push_back(bake(test::sphere(36, 18, 0.05)));
+    all.push_back(bake(test::torus(32, 16, 1, 0.3)));
+    for (const Baked& baked : all) {
+        ProofOptions options;
+        options.cut_count = 500;
+        options.least_share = 0.005;
+        CutsProof proof = prove_cuts(baked.hierarchy, options);
+        EXPECT_EQ(proof.cut_count, 500u);
+        EXPECT_EQ(proof.broken_count, 0u) << "first with seed " << proof.first_broken_seed;
+        EXPECT_LE(proof.greatest_measured_share, 1 + 1e-5);
+        EXPECT_LE(proof.median_stated_over_measured, 1.1);
+    }
+}
+
+TEST(CutsProof, NoticesErrorsThatAreTooSmall) {
+    Baked baked = bake(test::sphere(36, 18, 0.05));
+    for (float& error_m : baked.hierarchy.error_m) error_m *= 0.8f;
+    ProofOptions options;
+    options.cut_count = 20;
+    CutsProof proof = prove_cuts(baked.hierarchy, options);
+    EXPECT_GT(proof.broken_count, 10u);
+    EXPECT_GT(proof.greatest_measured_share, 1.2);
 }
 
 TEST(StatedError, HoldsAfterPositionsHaveMoved) {

@@ -38,11 +38,11 @@ Numbering number(const WorkingMesh& coarsest, const CollapseLog& log) {
     return made;
 }
 
-void fill_vertices(const Groups& groups, const Numbering& numbering, Hierarchy& h) {
+void fill_vertices(const Groups& groups, const WorkingMesh& coarsest, const Numbering& numbering, Hierarchy& h) {
     h.vertices.reserve(groups.vertices.size());
     h.vertex_begin.push_back(0);
     for (uint32_t p = 0; p < numbering.old_position.size(); ++p) {
-        uint32_t old = numbering.old_position[p];
+        uint32_t old = coarsest.source_position[numbering.old_position[p]];
         for (uint32_t v = groups.vertex_begin[old]; v < groups.vertex_begin[old + 1]; ++v) {
             h.vertices.push_back(groups.vertices[v]);
             h.vertices.back().position = p;
@@ -63,7 +63,7 @@ void fill_faces(const Groups& groups, const WorkingMesh& coarsest, const Numberi
             h.birth_wedge.push_back(offset_of(groups, coarsest.vertex[old * kCorners + c]));
         }
         h.face_positions.push_back(positions);
-        h.face_group.push_back(groups.face_group[old]);
+        h.face_group.push_back(coarsest.face_group[old]);
     }
 }
 
@@ -173,8 +173,8 @@ Hierarchy make_rows(const mesh::Mesh& mesh, const Groups& groups, const WorkingM
     h.base_position_count = uint32_t(numbering.position.size() - log.gone.size());
     uint32_t added = uint32_t(std::count_if(log.turns.begin(), log.turns.end(), goes));
     h.base_face_count = uint32_t(numbering.face.size()) - added;
-    for (uint32_t old : numbering.old_position) h.positions_m.push_back(mesh.positions_m[old]);
-    fill_vertices(groups, numbering, h);
+    for (uint32_t old : numbering.old_position) h.positions_m.push_back(coarsest.positions_m[old]);
+    fill_vertices(groups, coarsest, numbering, h);
     fill_faces(groups, coarsest, numbering, h);
     fill_splits(groups, log, numbering, h);
     fill_needs(h);

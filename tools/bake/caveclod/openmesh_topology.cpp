@@ -17,15 +17,15 @@ namespace {
 
 using Surface = OpenMesh::TriMesh_ArrayKernelT<>;
 
-Result<Surface> surface_of(size_t position_count, std::span<const mesh::Corners> faces) {
+tl::expected<Surface, NoSurface> surface_of(size_t position_count, std::span<const mesh::Corners> faces) {
     Surface surface;
     surface.reserve(position_count, faces.size() * 3 / 2, faces.size());
     for (size_t p = 0; p < position_count; ++p) surface.new_vertex();
     for (size_t f = 0; f < faces.size(); ++f) {
         auto corner = [&](int c) { return OpenMesh::VertexHandle(int(faces[f][size_t(c)])); };
         if (!surface.add_face(corner(0), corner(1), corner(2)).is_valid())
-            return bad_input("face {} cannot be added: an edge of it has two faces already, or the faces at a corner are no fan",
-                             f);
+            return tl::unexpected(NoSurface{
+                uint32_t(f), "cannot be added: an edge of it has two faces already, or the faces at a corner are no fan"});
     }
     return surface;
 }
@@ -39,7 +39,7 @@ uint32_t corner_facing(std::span<const mesh::Corners> faces, uint32_t face, int 
 
 }  // namespace
 
-Result<Topology> find_topology(size_t position_count, std::span<const mesh::Corners> faces) {
+tl::expected<Topology, NoSurface> find_topology(size_t position_count, std::span<const mesh::Corners> faces) {
     auto surface = surface_of(position_count, faces);
     if (!surface) return tl::unexpected(surface.error());
     Topology topology;

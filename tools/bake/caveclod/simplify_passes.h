@@ -21,8 +21,9 @@ class Passes {
 
   private:
     struct Chosen {
-        uint32_t gone = kNone, kept = kNone;
+        uint32_t gone = kNone, kept = kNone, fan = kNone;
         Measured measured;
+        double worst_m = 0;  // of the error and what attributes lose
         bool is_made = false;
     };
 
@@ -57,11 +58,11 @@ class Passes {
     std::vector<uint8_t> known_;                    // [P] the candidate must be found anew
     std::vector<uint32_t> touched_in_, target_in_;  // [P] the last pass that changed the position's star, or collapsed into it
     uint32_t pass_ = 0, next_fan_ = 0;
+    std::vector<float> costs_;
     std::vector<std::pair<float, uint32_t>> queue_;
     std::vector<Chosen> chosen_;
     std::vector<TurnedFan> fans_;      // of chosen_
     std::vector<MapChanges> changes_;  // one for each block of chosen_
-    uint32_t first_fan_ = 0;
 };
 
 }  // namespace overlook::caveclod

@@ -13,6 +13,9 @@ namespace {
 constexpr int kApex = -1000;  // the kept position, which is on all of them
 // Distances are taken in double; this covers their rounding and that to float.
 constexpr double kRoundingShare = 1e-6;
+// A face takes about a sixth of what lies round its corners, and may be turned from what it stands for by at most some 84
+// degrees.
+constexpr double kShareOfCorner = 1.0 / 6, kLeastCosine = 0.1;
 
 class FanMeasure {
   public:
@@ -99,9 +102,16 @@ class FanMeasure {
         greatest2_ = std::max(greatest2_, distance2);
     }
 
+    // Against what the source's positions in the face, and in part those at its corners, have round them.
     bool faces_its_source() const {
-        for (uint32_t i = fan_.first; i <= fan_.last; ++i)
-            if (glm::dot(probes_[i].normal, area_vectors_[i]) < 0) return false;
+        auto around = [&](uint32_t p) { return glm::dvec3(map_.area_vector_m2[p]); };
+        for (uint32_t i = fan_.first; i <= fan_.last; ++i) {
+            glm::dvec3 corners = around(fan_.kept) + around(fan_.link[i]) + around(fan_.link[i + 1]);
+            glm::dvec3 region = area_vectors_[i] + corners * kShareOfCorner, normal = probes_[i].normal;
+            double both = glm::dot(normal, region);
+            double least2 = kLeastCosine * kLeastCosine * glm::dot(normal, normal) * glm::dot(region, region);
+            if (both < 0 || both * both < least2) return false;
+        }
         return true;
     }
 

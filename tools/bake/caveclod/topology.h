@@ -4,10 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "formats/caveclod.h"
-#include "formats/result.h"
 #include "tools/bake/mesh.h"
 
 namespace overlook::caveclod {
@@ -20,9 +21,15 @@ struct Topology {
     std::vector<std::array<uint32_t, 2>> edge_corners;  // [E] the corners that an edge faces; the second kNobody at borders
 };
 
+// The first face that could not be added, and why: "cannot be added: ...".
+struct NoSurface {
+    uint32_t face = 0;
+    std::string why;
+};
+
 // faces: [F], ids below position_count, no face with two equal. Edges are numbered as OpenMesh does, in the order in which the
-// faces bring them. O(F). Fails with Exit::bad_input: "face 12 cannot be added: an edge of it has two faces already, or the faces
-// at a corner are no fan".
-Result<Topology> find_topology(size_t position_count, std::span<const mesh::Corners> faces);
+// faces bring them. O(F). Fails where an edge would have three faces or two that run along it the same way, or where the faces at
+// a position are no fan.
+tl::expected<Topology, NoSurface> find_topology(size_t position_count, std::span<const mesh::Corners> faces);
 
 }  // namespace overlook::caveclod

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <utility>
 
+#include "tools/bake/caveclod/spatial_order.h"
 #include "tools/bake/caveclod/topology.h"
 
 namespace overlook::caveclod {
@@ -42,6 +43,48 @@ uint32_t first_of_open(const WorkingMesh& mesh, uint32_t corner) {
          across = mesh.opposite[previous_corner(corner)])
         corner = previous_corner(across);
     return corner;
+}
+
+std::vector<mesh::Corners> renumber(const mesh::Mesh& mesh, WorkingMesh& made) {
+    made.source_position = order_along_curve(mesh.positions_m);
+    std::vector<uint32_t> rank(made.source_position.size());
+    for (uint32_t p = 0; p < rank.size(); ++p) rank[made.source_position[p]] = p;
+    made.source_face = order_by_least_corner(mesh.faces, rank);
+    for (uint32_t source : made.source_position) made.positions_m.push_back(mesh.positions_m[source]);
+    std::vector<mesh::Corners> faces;
+    faces.reserve(mesh.faces.size());
+    for (uint32_t source : made.source_face) {
+        const mesh::Corners& f = mesh.faces[source];
+        faces.push_back({rank[f[0]], rank[f[1]], rank[f[2]]});
+    }
+    return faces;
+}
+
+void fill_corners(std::span<const mesh::Corners> faces, const Groups& groups, WorkingMesh& made) {
+    made.position.assign(made.edge.size(), kNone);
+    made.vertex = made.position;
+    made.some_corner.assign(made.positions_m.size(), kNone);
+    for (uint32_t source : made.source_position) made.kind.push_back(groups.kind[source]);
+    for (uint32_t f = 0; f < faces.size(); ++f) {
+        made.face_group.push_back(groups.face_group[made.source_face[f]]);
+        for (uint32_t c = 0; c < 3; ++c) {
+            made.position[f * kCorners + c] = faces[f][c];
+            made.vertex[f * kCorners + c] = groups.face_vertices[made.source_face[f]][c];
+            made.some_corner[faces[f][c]] = f * kCorners + c;
+        }
+    }
+}
+
+void fill_features(const Groups& groups, WorkingMesh& made) {
+    made.is_feature.assign(made.edge_corners.size(), 0);
+    for (size_t e = 0; e < made.edge_corners.size(); ++e) {
+        uint32_t corner = made.edge_corners[e][0];
+        uint32_t a = made.source_position[made.position[next_corner(corner)]];
+        uint32_t b = made.source_position[made.position[previous_corner(corner)]];
+        auto begin = groups.feature_ends.begin() + groups.feature_begin[a],
+             end = groups.feature_ends.begin() + groups.feature_begin[a + 1];
+        made.is_feature[e] = made.edge_corners[e][1] == kNone || std::find(begin, end, b) != end;
+    }
 }
 
 }  // namespace
@@ -85,32 +128,16 @@ bool fan_of(const Star& star, uint32_t gone, uint32_t at, Fan& fan) {
 }
 
 Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& groups) {
-    auto topology = find_topology(mesh.positions_m.size(), mesh.faces);
-    if (!topology) return tl::unexpected(topology.error());
     WorkingMesh made;
-    made.positions_m = mesh.positions_m;
+    std::vector<mesh::Corners> faces = renumber(mesh, made);
+    auto topology = find_topology(mesh.positions_m.size(), faces);
+    if (!topology) return bad_input("face {} {}", made.source_face[topology.error().face], topology.error().why);
     made.edge = std::move(topology->edge);
     made.opposite = std::move(topology->opposite);
     made.edge_corners = std::move(topology->edge_corners);
-    made.position.assign(made.edge.size(), kNone);
-    made.vertex = made.position;
-    made.some_corner.assign(mesh.positions_m.size(), kNone);
-    made.kind = groups.kind;
-    made.face_group = groups.face_group;
-    for (uint32_t f = 0; f < mesh.faces.size(); ++f)
-        for (uint32_t c = 0; c < 3; ++c) {
-            made.position[f * kCorners + c] = mesh.faces[f][c];
-            made.vertex[f * kCorners + c] = groups.face_vertices[f][c];
-            made.some_corner[mesh.faces[f][c]] = f * kCorners + c;
-        }
-    made.is_feature.assign(made.edge_corners.size(), 0);
-    for (size_t e = 0; e < made.edge_corners.size(); ++e) {
-        uint32_t corner = made.edge_corners[e][0];
-        uint32_t a = made.position[next_corner(corner)], b = made.position[previous_corner(corner)];
-        auto ends = std::span(groups.feature_ends)
-                        .subspan(groups.feature_begin[a], groups.feature_begin[a + 1] - groups.feature_begin[a]);
-        made.is_feature[e] = made.edge_corners[e][1] == kNone || std::find(ends.begin(), ends.end(), b) != ends.end();
-    }
+    made.render_vertices = groups.vertices;
+    fill_corners(faces, groups, made);
+    fill_features(groups, made);
     return made;
 }
 

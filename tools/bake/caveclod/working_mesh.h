@@ -28,17 +28,21 @@ inline uint32_t previous_corner(uint32_t corner) {
     return (corner & 3u) == 0 ? corner + 2 : corner - 1;
 }
 
+// Positions and faces are numbered in a spatial order of its own (spatial_order.h).
 struct WorkingMesh {
-    std::span<const glm::vec3> positions_m;             // [P]
-    std::vector<uint32_t> position;                     // [4F] of each corner; those of faces that went stay as they were
-    std::vector<uint32_t> vertex;                       // [4F] render vertex of each corner
-    std::vector<uint32_t> opposite;                     // [4F] the corner across the edge that faces this one; kNone at borders
-    std::vector<uint32_t> edge;                         // [4F] the edge that faces each corner
-    std::vector<std::array<uint32_t, 2>> edge_corners;  // [E] the corners that an edge faces; the second kNone at borders
-    std::vector<uint8_t> is_feature;                    // [E]
-    std::vector<uint32_t> some_corner;                  // [P] one corner at each position; kNone when the position went
-    std::vector<PositionKind> kind;                     // [P]
-    std::span<const uint32_t> face_group;               // [F]
+    std::vector<uint32_t> source_position, source_face;  // [P], [F] numbers in the mesh that it was made of
+    std::vector<glm::vec3> positions_m;                  // [P]
+    std::vector<uint32_t> position;                      // [4F] of each corner; those of faces that went stay as they were
+    std::vector<uint32_t> vertex;                        // [4F] render vertex of each corner
+    std::vector<uint32_t> opposite;                      // [4F] the corner across the edge that faces this one; kNone at borders
+    std::vector<uint32_t> edge;                          // [4F] the edge that faces each corner
+    std::vector<std::array<uint32_t, 2>> edge_corners;   // [E] the corners that an edge faces; the second kNone at borders
+    std::vector<uint8_t> is_feature;                     // [E]
+    std::vector<uint32_t> some_corner;                   // [P] one corner at each position; kNone when the position went
+    std::vector<PositionKind> kind;                      // [P]
+    std::vector<uint32_t> face_group;                    // [F]
+
+    std::span<const RenderVertex> render_vertices;  // of the groups
 
     size_t face_count() const { return position.size() / kCorners; }
     bool is_alive(uint32_t p) const { return some_corner[p] != kNone; }
