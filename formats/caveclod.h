@@ -70,6 +70,17 @@ struct Surface {
     bool operator==(const Surface&) const = default;
 };
 
+// Where positions and attributes stand: those of a quantised hierarchy are whole steps from their lowest values.
+struct Grid {
+    double position_step_m = 0;  // 0: not quantised
+    uint32_t position_bits = 0;
+    glm::dvec2 uv_low{0};
+    double uv_step = 0;
+    uint32_t uv_bits = 0, normal_bits = 0;
+
+    bool operator==(const Grid&) const = default;
+};
+
 // Letters: P positions, S splits, F faces, D render vertices, G surface groups. P = base_position_count + S.
 struct Hierarchy {
     glm::dvec3 origin_m{0};  // where the positions' origin lies in the world
@@ -115,12 +126,14 @@ struct Hierarchy {
     Attributes attributes;
 
     std::vector<Surface> surfaces;
+    Grid grid;                 // by quantise()
     float finest_error_m = 0;  // of the cut with every split applied: what quantising has moved
 
     uint32_t split_count() const { return uint32_t(owner.size()); }
     uint32_t new_position(uint32_t split) const { return base_position_count + split; }
 };
 constexpr uint32_t kMostWedges = 65535;
+constexpr uint32_t kMostStar = 1024;  // faces at a split's owner before the split: what keeps reading linear
 
 // Between a baker and write(): canonicalise, quantise, measure errors, complete.
 
@@ -134,15 +147,15 @@ Result<void> complete(Hierarchy& hierarchy);
 // How finely what is stored is stored.
 struct Precision {
     uint32_t position_bits = 14;  // 8..20, of the longest side of the box round all positions
-    uint32_t uv_bits = 14;        // 8..20, of the greater range
+    uint32_t uv_bits = 14;        // 8..16, of the greater range
     uint32_t normal_bits = 10;    // 6..16, of each octahedral coordinate
 };
 // What quantising changed at most.
 struct Quantised {
     double position_m = 0, normal_deg = 0, uv = 0;
 };
-// Moves positions and attributes to those that can be stored; origin_m goes to the box's lowest corner. Positions may coincide
-// afterwards.
+// Moves positions and attributes to those that can be stored; origin_m goes to the lowest corner of the box round the positions,
+// whose step has so few bits that every position is exact in a float. Positions may coincide afterwards.
 Quantised quantise(Hierarchy& hierarchy, const Precision& precision);
 // Rounds errors up to those that can be stored (eighths of an octave: at most 9.1 % more) and, from fine to coarse, to what needs
 // them. Needs must be complete.
@@ -156,7 +169,7 @@ enum class Codec : uint32_t {
 
 // Adds the hierarchy's sections to a baked file: MINF, MBLK, MDIR and MSUR. Errors are rounded up (round_errors). Same hierarchy,
 // same bytes. Exit::our_bug if it is not quantised, complete and canonical: "a hierarchy to write has ...".
-Result<void> write(container::Writer& writer, const Hierarchy& hierarchy, const Precision& precision, Codec codec = Codec::meshopt);
+Result<void> write(container::Writer& writer, const Hierarchy& hierarchy, Codec codec = Codec::meshopt);
 
 // Reads a hierarchy, whole or its first blocks: any number of them, 0 being the coarsest cut alone, is a hierarchy that can be
 // drawn; its finest_error_m is then that of what is missing. The file may be hostile; every failure is Exit::bad_input and names
