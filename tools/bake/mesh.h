@@ -19,8 +19,9 @@ struct Surface {
     std::string name;                    // the file's own, or ""
     glm::vec4 base_colour{1, 1, 1, 1};   // red, green, blue, opacity, each 0..1
     std::string texture;                 // bare file name of the colour texture, or ""
-    std::vector<uint8_t> texture_bytes;  // the texture as it was stored (PNG, JPEG, ...) where the file embeds it, or none
-    bool is_alpha_masked = false;        // texels of less opacity than alpha_cutoff are holes
+    std::vector<uint8_t> texture_bytes;  // that picture's file (PNG, JPEG, ...), embedded or beside the mesh: with the first
+                                         // surface of this texture name only; none if it is missing
+    bool is_alpha_masked = false;  // texels of less opacity than alpha_cutoff are holes
     float alpha_cutoff = 0.5f;
     bool is_two_sided = false;  // drawn from behind too
 };
@@ -44,7 +45,7 @@ struct Mesh {
     std::vector<uint32_t> face_source;   // [F] number of the file's triangle (see MeshReport) that this one is; rises
 
     // Attributes by corner: [F] indices into the pool before them, or kNone; empty where the file has none.
-    std::vector<glm::vec3> normals;  // as stored, of length 1
+    std::vector<glm::vec3> normals;  // of length 1
     std::vector<Corners> face_normals;
     std::vector<glm::vec2> uvs;  // first set; (0, 0) is the first texel of the texture's first row (glTF's sense)
     std::vector<Corners> face_uvs;
@@ -53,10 +54,11 @@ struct Mesh {
     std::vector<std::array<uint8_t, 4>> colours;  // red, green, blue, opacity
     std::vector<Corners> face_colours;
 
-    // [P], or empty where nothing was cut. Positions that were one point of the source before repair cut sheets apart there, and
-    // along whose edges a crack would open if one of them moved alone, carry the same number; every other position its own.
-    // Back sides (a face that stands both ways round) are sheets of their own and not linked to their front: the two are never
-    // seen together. Numbers are those of positions: link[p] is the first position of p's class, so link[p] <= p.
+    // [P], or empty where nothing was cut. Positions that were one point of the source before repair cut sheets apart there carry
+    // the same number, every other position its own: link[p] is the first position of p's class, so link[p] <= p. Where such a
+    // position lies on a border a crack opens if it moves alone; where it lies on none (two cones that touch) only the touch is
+    // lost. Back sides (a face that stands both ways round) are sheets of their own, not linked to their fronts: the two are
+    // never seen from one place, so no crack can open between them.
     std::vector<uint32_t> link;
 
     std::vector<Surface> surfaces;  // at least one

@@ -3,105 +3,36 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <queue>
 #include <span>
+#include <tuple>
+
+#include "tools/bake/caveclod/meetings.h"
 
 namespace overlook::caveclod {
 namespace {
 
 constexpr uint32_t kMostPacked = 65535;
-constexpr uint32_t kMostCompared = 256;  // groups at a position that are compared pairwise
 constexpr int kRounds = 16;
-constexpr size_t kCliquesTried = 16;
-constexpr uint32_t kMember = 0x80000000;  // of a clique: more than any number of members known
-
-// Positions of at least two groups, from both sides.
-struct Meetings {
-    std::vector<uint32_t> begin{0}, groups;          // rows of positions
-    std::vector<uint32_t> group_begin, at_position;  // rows of groups
-    uint32_t group_count = 0;
-
-    std::span<const uint32_t> groups_at(uint32_t position) const {
-        return std::span(groups).subspan(begin[position], begin[position + 1] - begin[position]);
-    }
-    std::span<const uint32_t> positions_of(uint32_t group) const {
-        return std::span(at_position).subspan(group_begin[group], group_begin[group + 1] - group_begin[group]);
-    }
-    uint32_t position_count() const { return uint32_t(begin.size() - 1); }
-};
-
-Meetings meetings_of(const GroupsAtPositions& at, uint32_t group_count) {
-    Meetings meetings;
-    meetings.group_count = group_count;
-    for (size_t position = 0; position + 1 < at.begin.size(); ++position) {
-        if (at.begin[position + 1] - at.begin[position] < 2) continue;
-        meetings.groups.insert(meetings.groups.end(), at.groups.begin() + at.begin[position],
-                               at.groups.begin() + at.begin[position + 1]);
-        meetings.begin.push_back(uint32_t(meetings.groups.size()));
-    }
-
-    meetings.group_begin.assign(size_t(group_count) + 1, 0);
-    for (uint32_t group : meetings.groups) ++meetings.group_begin[group + 1];
-    std::partial_sum(meetings.group_begin.begin(), meetings.group_begin.end(), meetings.group_begin.begin());
-    std::vector<uint32_t> cursor(meetings.group_begin.begin(), meetings.group_begin.end() - 1);
-    meetings.at_position.resize(meetings.groups.size());
-    for (uint32_t position = 0; position < meetings.position_count(); ++position)
-        for (uint32_t group : meetings.groups_at(position)) meetings.at_position[cursor[group]++] = position;
-    return meetings;
-}
-
-// Visits each neighbour of a group once (and a group but once), as far as positions of at most kMostCompared groups show them.
-class Neighbours {
-  public:
-    explicit Neighbours(const Meetings& meetings) : meetings_(meetings), seen_by_(meetings.group_count, 0xffffffff) {}
-
-    template <class Visit>
-    void visit(uint32_t group, const Visit& visit) {
-        seen_by_[group] = group;
-        for (uint32_t position : meetings_.positions_of(group)) {
-            if (meetings_.groups_at(position).size() > kMostCompared) continue;
-            for (uint32_t other : meetings_.groups_at(position)) {
-                if (seen_by_[other] == group) continue;
-                seen_by_[other] = group;
-                visit(other);
-            }
-        }
-    }
-
-  private:
-    const Meetings& meetings_;
-    std::vector<uint32_t> seen_by_;
-};
-
-std::vector<uint64_t> degrees_of(const Meetings& meetings) {
-    std::vector<uint64_t> degrees(meetings.group_count, 0);
-    Neighbours neighbours(meetings);
-    for (uint32_t group = 0; group < meetings.group_count; ++group) {
-        neighbours.visit(group, [&](uint32_t) { ++degrees[group]; });
-        for (uint32_t position : meetings.positions_of(group)) {
-            size_t crowd = meetings.groups_at(position).size();
-            if (crowd > kMostCompared) degrees[group] += crowd - 1;
-        }
-    }
-    return degrees;
-}
 
 // Which ids are taken at each position: a list, or a set of bits where many meet.
 class Taken {
   public:
-    explicit Taken(const Meetings& meetings) : meetings_(meetings) {}
+    explicit Taken(const Meetings& meetings)
+        : meetings_(meetings),
+          filled_(meetings.position_count(), 0),
+          listed_(meetings.groups.size()),
+          bits_(meetings.position_count()) {}
 
-    // Colours the groups in an order, each with the least id free. Returns how many ids that took.
-    uint32_t colour(std::span<const uint32_t> order, std::vector<uint32_t>& colours) {
-        filled_.assign(meetings_.position_count(), 0);
-        listed_.resize(meetings_.groups.size());
-        bits_.assign(meetings_.position_count(), {});
-        uint32_t count = 0;
-        for (uint32_t group : order) {
-            colours[group] = least_free(group);
-            take(group, colours[group]);
-            count = std::max(count, colours[group] + 1);
-        }
-        return count;
+    // Takes the least id that is free at all of the group's positions, there, and returns it.
+    uint32_t take_least(uint32_t group) {
+        uint32_t id = least_free(group);
+        for (uint32_t position : meetings_.positions_of(group))
+            if (is_crowded(position))
+                set(bits_[position], id);
+            else
+                listed_[meetings_.begin[position] + filled_[position]++] = id;
+        return id;
     }
 
   private:
@@ -120,13 +51,6 @@ class Taken {
         uint64_t taken = word < forbidden_.size() ? forbidden_[word] : 0;
         return uint32_t(word * 64) + uint32_t(std::countr_one(taken));
     }
-    void take(uint32_t group, uint32_t colour) {
-        for (uint32_t position : meetings_.positions_of(group))
-            if (is_crowded(position))
-                set(bits_[position], colour);
-            else
-                listed_[meetings_.begin[position] + filled_[position]++] = colour;
-    }
     static void set(std::vector<uint64_t>& words, uint32_t bit) {
         if (words.size() <= bit / 64) words.resize(bit / 64 + 1, 0);
         words[bit / 64] |= uint64_t(1) << (bit % 64);
@@ -138,46 +62,67 @@ class Taken {
     std::vector<uint64_t> forbidden_;
 };
 
-// The groups at a position, and others that share a position with all of them, while there are such. Returns how many.
-uint32_t grow_clique(const Meetings& meetings, uint32_t position, std::span<const uint64_t> degrees) {
-    std::vector<uint32_t> known(meetings.group_count, 0), touched;
-    std::span<const uint32_t> first = meetings.groups_at(position);
-    if (first.size() > kMostCompared) return uint32_t(first.size());
-    Neighbours neighbours(meetings);
-    auto add = [&](uint32_t group) {
-        known[group] = kMember;
-        neighbours.visit(group, [&](uint32_t other) {
-            if (known[other]++ == 0) touched.push_back(other);
-        });
-    };
-    for (uint32_t group : first) add(group);
-    for (uint32_t size = uint32_t(first.size());; ++size) {
-        uint32_t best = meetings.group_count;
-        for (uint32_t group : touched)
-            if (known[group] == size && (best == meetings.group_count || degrees[group] > degrees[best])) best = group;
-        if (best == meetings.group_count) return size;
-        add(best);
+struct Colouring {
+    std::vector<uint32_t> ids;  // [G]
+    uint32_t count = 0;
+};
+
+Colouring colour_in_order(const Meetings& meetings, std::span<const uint32_t> order) {
+    Colouring made{std::vector<uint32_t>(meetings.group_count, 0)};
+    Taken taken(meetings);
+    for (uint32_t group : order) {
+        made.ids[group] = taken.take_least(group);
+        made.count = std::max(made.count, made.ids[group] + 1);
     }
+    return made;
 }
 
-uint32_t clique_bound_of(const Meetings& meetings, std::span<const uint64_t> degrees) {
-    std::vector<uint32_t> largest(meetings.position_count());
-    std::iota(largest.begin(), largest.end(), 0u);
-    size_t tried = std::min(largest.size(), kCliquesTried);
-    std::partial_sort(largest.begin(), largest.begin() + tried, largest.end(), [&](uint32_t a, uint32_t b) {
-        size_t in_a = meetings.groups_at(a).size(), in_b = meetings.groups_at(b).size();
-        return in_a != in_b ? in_a > in_b : a < b;
-    });
-    uint32_t bound = meetings.group_count > 0 ? 1 : 0;
-    for (size_t i = 0; i < tried; ++i) bound = std::max(bound, grow_clique(meetings, largest[i], degrees));
-    return bound;
+// Next always the group round which most different ids are taken already.
+Colouring colour_by_saturation(const Meetings& meetings, std::span<const uint64_t> degrees) {
+    using Waiting = std::tuple<size_t, uint64_t, uint32_t>;  // ids round it, neighbours, ~group
+    std::priority_queue<Waiting> waiting;
+    for (uint32_t group = 0; group < meetings.group_count; ++group) waiting.push({0, degrees[group], ~group});
+
+    Colouring made{std::vector<uint32_t>(meetings.group_count, 0)};
+    std::vector<uint8_t> is_done(meetings.group_count, 0);
+    std::vector<std::vector<uint32_t>> ids_round(meetings.group_count);
+    Taken taken(meetings);
+    Neighbours neighbours(meetings);
+    for (; !waiting.empty(); waiting.pop()) {
+        uint32_t group = ~std::get<2>(waiting.top());
+        if (is_done[group]) continue;
+        is_done[group] = 1;
+        uint32_t id = made.ids[group] = taken.take_least(group);
+        made.count = std::max(made.count, id + 1);
+        neighbours.visit(group, [&](uint32_t other) {
+            std::vector<uint32_t>& ids = ids_round[other];
+            if (is_done[other] || std::find(ids.begin(), ids.end(), id) != ids.end()) return;
+            ids.push_back(id);
+            waiting.push({ids.size(), degrees[other], ~other});
+        });
+    }
+    return made;
 }
 
 // The classes of a colouring one after another, the last first.
-std::vector<uint32_t> classes_in_turn(std::span<const uint32_t> order, std::span<const uint32_t> colours) {
-    std::vector<uint32_t> next(order.begin(), order.end());
-    std::stable_sort(next.begin(), next.end(), [&](uint32_t a, uint32_t b) { return colours[a] > colours[b]; });
-    return next;
+std::vector<uint32_t> classes_in_turn(const Colouring& colouring) {
+    std::vector<uint32_t> order(colouring.ids.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return colouring.ids[a] > colouring.ids[b]; });
+    return order;
+}
+
+Colouring colour(const Meetings& meetings, std::span<const uint64_t> degrees, uint32_t bound) {
+    std::vector<uint32_t> order(meetings.group_count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return degrees[a] > degrees[b]; });
+    Colouring best = colour_in_order(meetings, order);
+    if (best.count <= bound) return best;
+
+    Colouring other = colour_by_saturation(meetings, degrees);
+    if (other.count < best.count) best = std::move(other);
+    for (int round = 0; round < kRounds && best.count > bound; ++round) best = colour_in_order(meetings, classes_in_turn(best));
+    return best;
 }
 
 }  // namespace
@@ -185,29 +130,14 @@ std::vector<uint32_t> classes_in_turn(std::span<const uint32_t> order, std::span
 Result<Packing> pack_groups(const GroupsAtPositions& at, uint32_t group_count) {
     Meetings meetings = meetings_of(at, group_count);
     std::vector<uint64_t> degrees = degrees_of(meetings);
-    std::vector<uint32_t> order(group_count), colours(group_count, 0), best;
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return degrees[a] > degrees[b]; });
-
-    Packing packing;
-    packing.clique_bound = clique_bound_of(meetings, degrees);
-    Taken taken(meetings);
-    packing.count = taken.colour(order, colours);
-    best = colours;
-    for (int round = 0; round < kRounds && packing.count > packing.clique_bound; ++round) {
-        order = classes_in_turn(order, colours);
-        uint32_t count = taken.colour(order, colours);
-        if (count >= packing.count) continue;
-        packing.count = count;
-        best = colours;
-    }
-    if (packing.count > kMostPacked)
+    uint32_t bound = clique_bound_of(meetings, degrees);
+    Colouring best = colour(meetings, degrees, bound);
+    if (best.count > kMostPacked)
         return impossible(
             "the surface groups need more than {} identifiers; weld normals (--weld-normals) or leave texture coordinates out "
             "(--ignore-uv)",
             kMostPacked);
-    packing.packed.assign(best.begin(), best.end());
-    return packing;
+    return Packing{std::vector<uint16_t>(best.ids.begin(), best.ids.end()), best.count, bound};
 }
 
 }  // namespace overlook::caveclod

@@ -65,8 +65,10 @@ void count_fans(PieceTable& table) {
 struct Curve {
     uint32_t piece = 0, a = 0, b = 0;  // a <= b; a == b: it returns to where it began
     bool is_border = false, has_sharp = false;
+    // Of curves between the same two, the one that costs most to lengthen comes first: it may stay an edge.
     bool operator<(const Curve& other) const {
-        return std::tie(piece, a, b, has_sharp) < std::tie(other.piece, other.a, other.b, other.has_sharp);
+        return std::tie(piece, a, b, has_sharp, is_border) <
+               std::tie(other.piece, other.a, other.b, other.has_sharp, other.is_border);
     }
     bool has_ends_of(const Curve& other) const { return piece == other.piece && a == other.a && b == other.b; }
 };
@@ -84,16 +86,26 @@ uint32_t walk(const Groups& groups, uint32_t from, uint32_t next, std::vector<ui
     return next;
 }
 
+// Feature edges from one rigid position to another.
+void add_single_edges(PieceTable& table, std::vector<Curve>& curves) {
+    const Groups& groups = table.groups;
+    for (uint32_t edge = 0; edge < table.edges.twin.size(); ++edge) {
+        auto [a, b] = std::minmax({value_at(table.faces, edge), value_at(table.faces, next_corner(edge))});
+        if (!table.is_rigid(a) || !table.is_rigid(b)) continue;
+        auto row = groups.feature_ends.begin() + groups.feature_begin[a],
+             end = groups.feature_ends.begin() + groups.feature_begin[a + 1];
+        if (std::binary_search(row, end, b)) curves.push_back({table.pieces.find(face_of(edge)), a, b, false, false});
+    }
+}
+
 // Loops of sharp positions alone keep three of them, at once; the other curves are returned.
 std::vector<Curve> curves_of(PieceTable& table) {
     const Groups& groups = table.groups;
     std::vector<Curve> curves;
     std::vector<uint8_t> is_walked(groups.kind.size(), 0), on_border(groups.kind.size(), 0);
-    for (const FeatureEdge& feature : groups.features) {
+    for (const FeatureEdge& feature : groups.features)
         if (feature.kind == FeatureKind::border) on_border[feature.a] = on_border[feature.b] = 1;
-        if (!table.is_rigid(feature.a) || !table.is_rigid(feature.b)) continue;
-        curves.push_back({table.pieces.find(face_of(table.any_corner[feature.a])), feature.a, feature.b, false, false});
-    }
+    add_single_edges(table, curves);
     for (uint32_t position = 0; position < groups.kind.size(); ++position) {
         if (groups.kind[position] != PositionKind::sharp || is_walked[position]) continue;
         is_walked[position] = 1;
