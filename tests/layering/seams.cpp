@@ -6,7 +6,7 @@ namespace overlook::layering {
 std::span<const Seam> seams() {
     static const std::vector<Seam> kSeams = {
         {"Embree", {"embree"}, {}},
-        {"OpenMesh", {"OpenMesh/"}, {}},
+        {"OpenMesh", {"OpenMesh/"}, {"tools/bake/caveclod/openmesh_topology.cpp"}},
         {"CGAL", {"CGAL/"}, {}},
         {"Draco", {"draco/"}, {"formats/draco_codec.cpp"}},
         {"meshoptimizer", {"meshoptimizer.h"}, {"formats/meshopt_codec.cpp"}},
