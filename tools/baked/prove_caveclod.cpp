@@ -1,59 +1,52 @@
 #include "tools/baked/prove_caveclod.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <random>
-
-#include "formats/parallel.h"
-#include "tools/bake/caveclod/cut.h"
-#include "tools/bake/caveclod/surface_distance.h"
+#include <iterator>
+#include <vector>
 
 namespace overlook::caveclod {
 namespace {
 
-constexpr double kGap = 0.05;
-constexpr uint64_t kMostSteps = 50'000'000;
-constexpr double kLeastShare = 0.001, kMostShare = 0.5;
-
-std::vector<Triangle> triangles_of(const Hierarchy& h, const CutFaces& cut) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(cut.positions.size());
-    for (const auto& corners : cut.positions) {
-        Triangle t;
-        for (size_t c = 0; c < 3; ++c) t[c] = h.origin_m + glm::dvec3(h.positions_m[corners[c]]);
-        triangles.push_back(t);
-    }
-    return triangles;
-}
-
-std::vector<Triangle> triangles_of(const mesh::Mesh& mesh) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(mesh.faces.size());
-    for (size_t f = 0; f < mesh.faces.size(); ++f) {
-        Triangle t;
-        for (size_t c = 0; c < 3; ++c) t[c] = mesh.origin_m + glm::dvec3(mesh::corner_m(mesh, f, c));
-        triangles.push_back(t);
-    }
-    return triangles;
-}
-
+// A triangle by its corners' steps on the grid that positions are stored on, the least corner first: equal for equal triangles.
 using Key = std::array<int64_t, 9>;
+using Steps = std::array<int64_t, 3>;
 
-// A triangle as whole steps of a grid, its corners turned so that the least comes first: equal for equal triangles.
-Key key_of(const Triangle& t, const glm::dvec3& low_m, double step_m) {
-    std::array<std::array<int64_t, 3>, 3> corners;
-    for (size_t c = 0; c < 3; ++c)
-        for (int axis = 0; axis < 3; ++axis) corners[c][size_t(axis)] = std::llround((t[c][axis] - low_m[axis]) / step_m);
+Key key_of(const std::array<Steps, 3>& corners) {
     size_t first = size_t(std::min_element(corners.begin(), corners.end()) - corners.begin());
     Key key;
     for (size_t c = 0; c < 3; ++c) std::copy_n(corners[(first + c) % 3].begin(), 3, key.begin() + ptrdiff_t(3 * c));
     return key;
 }
 
-std::vector<Key> sorted_keys(const std::vector<Triangle>& triangles, const glm::dvec3& low_m, double step_m) {
+Steps steps_of(const glm::dvec3& relative_m, double step_m) {
+    return {std::llround(relative_m.x / step_m), std::llround(relative_m.y / step_m), std::llround(relative_m.z / step_m)};
+}
+
+std::vector<Key> keys_of_source(const Hierarchy& h, const mesh::Mesh& source) {
+    glm::dvec3 shift_m = source.origin_m - h.origin_m;
     std::vector<Key> keys;
-    keys.reserve(triangles.size());
-    for (const Triangle& t : triangles) keys.push_back(key_of(t, low_m, step_m));
+    keys.reserve(source.faces.size());
+    for (size_t f = 0; f < source.faces.size(); ++f) {
+        std::array<Steps, 3> corners;
+        for (size_t c = 0; c < 3; ++c)
+            corners[c] = steps_of(glm::dvec3(mesh::corner_m(source, f, c)) + shift_m, h.grid.position_step_m);
+        keys.push_back(key_of(corners));
+    }
+    std::sort(keys.begin(), keys.end());
+    return keys;
+}
+
+std::vector<Key> keys_of_finest(const Hierarchy& h) {
+    CutFaces finest = faces_of(h, Applied(h.split_count(), 1));
+    std::vector<Key> keys;
+    keys.reserve(finest.face.size());
+    for (const auto& positions : finest.positions) {
+        std::array<Steps, 3> corners;
+        for (size_t c = 0; c < 3; ++c) corners[c] = steps_of(glm::dvec3(h.positions_m[positions[c]]), h.grid.position_step_m);
+        keys.push_back(key_of(corners));
+    }
     std::sort(keys.begin(), keys.end());
     return keys;
 }
@@ -64,71 +57,39 @@ uint64_t missing_count(const std::vector<Key>& wanted, const std::vector<Key>& t
     return missing.size();
 }
 
-// The finest cut is the source, triangle by triangle, on the grid that positions are stored on.
-void check_finest(const Hierarchy& h, const std::vector<Triangle>& source, Proof& proof) {
-    CutFaces finest = faces_of(h, Applied(h.split_count(), 1));
-    std::vector<Triangle> drawn = triangles_of(h, finest);
-    std::vector<Key> wanted = sorted_keys(source, h.origin_m, h.grid.position_step_m);
-    std::vector<Key> there = sorted_keys(drawn, h.origin_m, h.grid.position_step_m);
-    proof.lost_triangle_count = missing_count(wanted, there);
-    proof.foreign_triangle_count = missing_count(there, wanted);
-    proof.finest_stated_m = double(h.finest_error_m);
-    for (const Triangle& t : source)
-        for (const glm::dvec3& corner : t) {
-            glm::dvec3 steps = glm::round((corner - h.origin_m) / h.grid.position_step_m);
-            proof.finest_moved_m = std::max(proof.finest_moved_m, glm::length(h.origin_m + steps * h.grid.position_step_m - corner));
-        }
-}
-
-CutCheck check_cut(const Hierarchy& h, const TriangleTree& source, uint64_t seed) {
-    std::mt19937_64 random(seed);
-    double share = kLeastShare * std::pow(kMostShare / kLeastShare, double(random() >> 11) * 0x1p-53);
-    uint64_t wanted = std::max<uint64_t>(1, uint64_t(share * double(h.face_positions.size())));
-    Applied applied = random_cut(h, wanted, seed);
-    CutFaces cut = faces_of(h, applied);
-    CutCheck check;
-    check.seed = seed;
-    check.triangle_count = cut.face.size();
-    check.stated_error_m = stated_error_m(h, applied);
-    TriangleTree drawn(triangles_of(h, cut));
-    Distance found = two_sided_distance(drawn, source, kGap, kGap * check.stated_error_m, kMostSteps);
-    check.least_m = found.least_m, check.most_m = found.most_m;
-    return check;
+double farthest_moved_m(const Hierarchy& h, const mesh::Mesh& source) {
+    glm::dvec3 shift_m = source.origin_m - h.origin_m;
+    double farthest_m = 0;
+    for (const glm::vec3& position_m : source.positions_m) {
+        glm::dvec3 relative_m = glm::dvec3(position_m) + shift_m;
+        Steps steps = steps_of(relative_m, h.grid.position_step_m);
+        glm::dvec3 stored_m = glm::dvec3(double(steps[0]), double(steps[1]), double(steps[2])) * h.grid.position_step_m;
+        farthest_m = std::max(farthest_m, glm::length(stored_m - relative_m));
+    }
+    return farthest_m;
 }
 
 }  // namespace
 
-uint64_t Proof::broken_cut_count() const {
-    return uint64_t(std::count_if(cuts.begin(), cuts.end(), [](const CutCheck& cut) {
-        return cut.least_m > cut.stated_error_m * (1 + 1e-9);
-    }));
-}
-
 bool Proof::holds() const {
     return broken_law.empty() && lost_triangle_count == 0 && foreign_triangle_count == 0 &&
-           finest_moved_m <= finest_stated_m * (1 + 1e-9) && broken_cut_count() == 0;
+           finest_moved_m <= finest_stated_m * (1 + 1e-6) && cuts.broken_count == 0;
 }
 
-Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, uint32_t cut_count, uint64_t seed,
+Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, const ProofOptions& options,
             const std::function<void(double)>& progress) {
     Proof proof;
     proof.triangle_count = source.faces.size();
     proof.broken_law = broken_law(hierarchy);
     if (!proof.broken_law.empty()) return proof;
-    std::vector<Triangle> triangles = triangles_of(source);
-    check_finest(hierarchy, triangles, proof);
+    std::vector<Key> wanted = keys_of_source(hierarchy, source), there = keys_of_finest(hierarchy);
+    proof.lost_triangle_count = missing_count(wanted, there);
+    proof.foreign_triangle_count = missing_count(there, wanted);
+    proof.finest_stated_m = double(hierarchy.finest_error_m);
+    proof.finest_moved_m = farthest_moved_m(hierarchy, source);
     progress(0.1);
-
-    TriangleTree tree(triangles);
-    proof.cuts.resize(cut_count);
-    constexpr size_t kAtATime = 8;
-    for (size_t begin = 0; begin < cut_count; begin += kAtATime) {
-        size_t count = std::min(kAtATime, cut_count - begin);
-        parallel_ranges(count, 1, [&](size_t i, size_t) {
-            proof.cuts[begin + i] = check_cut(hierarchy, tree, seed + begin + i);
-        });
-        progress(0.1 + 0.9 * double(begin + count) / cut_count);
-    }
+    proof.cuts = prove_cuts(hierarchy, options);
+    progress(1);
     return proof;
 }
 

@@ -17,7 +17,7 @@ struct VerifyArgs {
     std::string file;
     std::string source;
     std::vector<double> error_m;  // terrain: tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
-    uint32_t cuts = 20;           // mesh: how many random cuts to check
+    uint32_t cuts = 200;          // mesh: how many random cuts to check
 };
 struct DiffArgs {
     std::string a, b;

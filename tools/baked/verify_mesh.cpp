@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "formats/caveclod.h"
@@ -14,24 +13,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* kName = "baked verify";
 
-// The median of stated over measured, of the cuts that err at all.
-double median_looseness(const caveclod::Proof& proof) {
-    std::vector<double> ratios;
-    for (const caveclod::CutCheck& cut : proof.cuts)
-        if (cut.least_m > 0) ratios.push_back(cut.stated_error_m / cut.least_m);
-    if (ratios.empty()) return 1;
-    std::nth_element(ratios.begin(), ratios.begin() + ptrdiff_t(ratios.size() / 2), ratios.end());
-    return ratios[ratios.size() / 2];
-}
-
 ordered_json json_of(const caveclod::Proof& proof) {
-    ordered_json cuts = ordered_json::array();
-    for (const caveclod::CutCheck& cut : proof.cuts)
-        cuts.push_back({{"seed", cut.seed},
-                        {"triangles", cut.triangle_count},
-                        {"stated_error_m", cut.stated_error_m},
-                        {"measured_least_m", cut.least_m},
-                        {"measured_most_m", cut.most_m}});
+    const caveclod::CutsProof& cuts = proof.cuts;
     return {{"holds", proof.holds()},
             {"broken_law", proof.broken_law},
             {"triangles", proof.triangle_count},
@@ -39,21 +22,28 @@ ordered_json json_of(const caveclod::Proof& proof) {
             {"foreign_triangles", proof.foreign_triangle_count},
             {"finest_stated_m", proof.finest_stated_m},
             {"finest_moved_m", proof.finest_moved_m},
-            {"broken_cuts", proof.broken_cut_count()},
-            {"median_stated_to_measured", median_looseness(proof)},
-            {"cuts", cuts}};
+            {"cuts",
+             {{"count", cuts.cut_count},
+              {"broken", cuts.broken_count},
+              {"first_broken_seed", cuts.first_broken_seed},
+              {"greatest_share_of_promise_used", cuts.greatest_measured_share},
+              {"median_stated_over_measured", cuts.median_stated_over_measured},
+              {"greatest_stated_over_measured", cuts.greatest_stated_over_measured}}}};
 }
 
 void print_text(const caveclod::Proof& proof) {
     if (!proof.broken_law.empty()) fmt::print("BROKEN: {}\n", proof.broken_law);
-    fmt::print("finest cut: {} triangles of the source, {} lost, {} foreign; no corner moved by more than {:.3g} m, {:.3g} m promised\n",
-               with_commas(proof.triangle_count), proof.lost_triangle_count, proof.foreign_triangle_count, proof.finest_moved_m,
-               proof.finest_stated_m);
-    for (const caveclod::CutCheck& cut : proof.cuts)
-        fmt::print("cut {}: {} triangles, {:.4g} m from the source, {:.4g} m promised{}\n", cut.seed,
-                   with_commas(cut.triangle_count), cut.least_m, cut.stated_error_m,
-                   cut.least_m > cut.stated_error_m * (1 + 1e-9) ? "  BROKEN" : "");
-    fmt::print("promised over measured: {:.2f} in the median of {} cuts\n", median_looseness(proof), proof.cuts.size());
+    bool is_whole = proof.lost_triangle_count == 0 && proof.foreign_triangle_count == 0;
+    fmt::print("finest cut: {} triangles of the source, {} lost, {} foreign{}\n", with_commas(proof.triangle_count),
+               proof.lost_triangle_count, proof.foreign_triangle_count, is_whole ? "" : "  BROKEN");
+    fmt::print("no corner of it moved by more than {:.3g} m, {:.3g} m promised{}\n", proof.finest_moved_m, proof.finest_stated_m,
+               proof.finest_moved_m <= proof.finest_stated_m * (1 + 1e-6) ? "" : "  BROKEN");
+    const caveclod::CutsProof& cuts = proof.cuts;
+    fmt::print("{} random legal cuts: promises used to {:.1f} % at the most; promised over measured {:.2f} in the median\n",
+               cuts.cut_count, 100 * cuts.greatest_measured_share, cuts.median_stated_over_measured);
+    if (cuts.broken_count > 0)
+        fmt::print("BROKEN: {} cuts are farther from the source than promised, first that of seed {}\n", cuts.broken_count,
+                   cuts.first_broken_seed);
     fmt::print("{}\n", proof.holds() ? "every promise holds" : "a promise is broken");
 }
 
@@ -79,8 +69,11 @@ int verify_mesh(const VerifyArgs& args, const container::Reader& file, const com
     if (auto same = check_source(*provenance, source->report, args); !same) return command::fail(kName, same.error());
 
     command::Progress progress(common, "proving");
+    caveclod::ProofOptions options;
+    options.cut_count = args.cuts;
+    options.seed = common.seed;
     caveclod::Proof proof =
-        caveclod::prove(*hierarchy, source->mesh, args.cuts, common.seed, [&](double done) { progress.set(done); });
+        caveclod::prove(*hierarchy, source->mesh, options, [&](double done) { progress.set(done); });
     if (common.json)
         fmt::print("{}\n", json_of(proof).dump(2));
     else
