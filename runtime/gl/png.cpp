@@ -33,4 +33,22 @@ Result<void> write_png(const std::string& path, const ImageRgb8& image) {
     return write_file(path, std::span(static_cast<const std::byte*>(bytes.get()), length_bytes));
 }
 
+Result<ImageRgba8> decode_png(const std::string& name, std::span<const std::byte> bytes) {
+    constexpr uint32_t kMostSide = 16384;
+    std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> decoder(spng_ctx_new(0), spng_ctx_free);
+    spng_ihdr header{};
+    size_t size = 0;
+    int status = decoder == nullptr ? SPNG_EMEM : spng_set_image_limits(decoder.get(), kMostSide, kMostSide);
+    if (status == 0) status = spng_set_png_buffer(decoder.get(), bytes.data(), bytes.size());
+    if (status == 0) status = spng_get_ihdr(decoder.get(), &header);
+    if (status == 0) status = spng_decoded_image_size(decoder.get(), SPNG_FMT_RGBA8, &size);
+    ImageRgba8 image;
+    if (status == 0) {
+        image = {header.width, header.height, std::vector<uint8_t>(size)};
+        status = spng_decode_image(decoder.get(), image.pixels.data(), size, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
+    }
+    if (status != 0) return bad_input("{}: is no picture that can be read: {}; PNG is wanted", name, spng_strerror(status));
+    return image;
+}
+
 }  // namespace overlook

@@ -1,6 +1,11 @@
 // The one place where metres of error become pixels: bakers and runtime alike ask here.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
 #include "runtime/view/camera.h"
 
 namespace overlook::view {
@@ -18,7 +23,11 @@ namespace overlook::view {
 //
 // depth_min_m: least depth over the region's part in the frame, > 0; secant_max: of its widest angle in the frame, >= 1.
 // Returns infinity where depth_min_m <= error_m (the error can reach the eye) and 0 for error_m = 0.
-double error_px_bound(double focal_px, double error_m, double depth_min_m, double secant_max);
+inline double error_px_bound(double focal_px, double error_m, double depth_min_m, double secant_max) {
+    if (error_m <= 0) return 0;
+    if (depth_min_m <= error_m) return std::numeric_limits<double>::infinity();
+    return focal_px * error_m * secant_max / (depth_min_m - error_m);
+}
 
 // The same where the error is along the world's vertical, as a height field's is: for it |z u_x - x u_z| and |z u_y - y u_z| are
 // two sides of the cross product of p and the vertical u, whose length is p's horizontal distance h from the eye, and the depth
@@ -31,8 +40,34 @@ double error_px_bound(double focal_px, double error_m, double depth_min_m, doubl
 double error_px_bound_vertical(double focal_px, double error_m, double depth_min_m, double secant_max, double horizontal_max_m,
                                double axis_rise);
 
-// The bound of error_px_bound for a sphere given by its middle's distance and angle: its least depth and widest angle are bounded
-// by those of the sphere, and by the frame's corner (secant_corner) since what is outside the frame is not seen.
+// The bound of error_px_bound for spheres, of one camera: a sphere's least depth and widest angle are bounded by those of the
+// sphere, and by the frame's corner since what is outside the frame is not seen.
+class SphereErrorBound {
+  public:
+    explicit SphereErrorBound(const Camera& camera);
+
+    // A place relative to the eye in the camera's own axes.
+    struct Place {
+        double right = 0, up = 0, forward = 0;
+    };
+    Place place_of(const glm::dvec3& from_eye_m) const {
+        return {glm::dot(axes_.right, from_eye_m), glm::dot(axes_.up, from_eye_m), glm::dot(axes_.forward, from_eye_m)};
+    }
+    double operator()(const Place& middle, double radius_m, double error_m) const {
+        double side_squared = middle.right * middle.right + middle.up * middle.up;
+        double distance_min = std::sqrt(side_squared + middle.forward * middle.forward) - radius_m;
+        double depth_min = std::max(std::max(middle.forward - radius_m, distance_min * corner_cosine_), near_m_);
+        double tangent_max = (std::sqrt(side_squared) + radius_m) / depth_min;
+        double secant_max = std::min(corner_secant_, std::sqrt(1 + tangent_max * tangent_max));
+        return error_px_bound(focal_px_, error_m, depth_min, secant_max);
+    }
+
+  private:
+    Axes axes_;
+    double focal_px_, near_m_, corner_secant_, corner_cosine_;
+};
+
+// The same of one sphere of the world.
 double error_px_bound_of_sphere(const Camera& camera, const glm::dvec3& middle_m, double radius_m, double error_m);
 
 }  // namespace overlook::view

@@ -6,9 +6,10 @@ namespace overlook::layering {
 std::span<const Seam> seams() {
     static const std::vector<Seam> kSeams = {
         {"Embree", {"embree"}, {}},
-        {"OpenMesh", {"OpenMesh/"}, {}},
+        {"OpenMesh", {"OpenMesh/"}, {"tools/bake/caveclod/openmesh_topology.cpp"}},
         {"CGAL", {"CGAL/"}, {}},
-        {"Draco", {"draco/"}, {}},
+        {"Draco", {"draco/"}, {"formats/draco_codec.cpp"}},
+        {"meshoptimizer", {"meshoptimizer.h"}, {"formats/meshopt_codec.cpp"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"tools/bake/images.cpp"}},
         {"GeographicLib", {"GeographicLib/"}, {"tools/bake/georeference.cpp"}},
         {"tinygltf", {"tiny_gltf.h"}, {"tools/baked/glb.cpp"}},

@@ -1,5 +1,6 @@
-// bake-lod: levels of detail with certified errors, from elevation models.
+// bake-lod: levels of detail with certified errors, from elevation models and meshes.
 
+#include "tools/bake_lod/mesh_verb.h"
 #include "tools/bake_lod/terrain_verb.h"
 
 using namespace overlook;
@@ -9,7 +10,11 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     command::Common common;
     bake_lod::TerrainArgs terrain;
+    bake_lod::MeshArgs mesh;
     CLI::App* terrain_verb = bake_lod::add_terrain_verb(app, terrain, common);
-    return command::run(app, common, argc, argv,
-                        [&] { return terrain_verb->parsed() ? bake_lod::bake_terrain(terrain, common) : int(Exit::our_bug); });
+    CLI::App* mesh_verb = bake_lod::add_mesh_verb(app, mesh, common);
+    return command::run(app, common, argc, argv, [&] {
+        if (terrain_verb->parsed()) return bake_lod::bake_terrain(terrain, common);
+        return mesh_verb->parsed() ? bake_lod::bake_mesh(mesh, common) : int(Exit::our_bug);
+    });
 }

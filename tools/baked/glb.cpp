@@ -6,6 +6,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -56,14 +57,19 @@ int add_accessor(tinygltf::Model& model, int view, int component, int type, size
     return int(model.accessors.size()) - 1;
 }
 
-// glTF is right-handed with y up: (x, y, z) -> (x, z, -y), about the box's middle.
+// glTF is right-handed with y up: (x, y, z) -> (x, z, -y), where z is height.
+std::array<double, 3> gltf_axes(const MeshData& mesh, double x, double y, double z) {
+    if (mesh.has_own_axes) return {x, y, z};
+    return {x, z, -y};
+}
+
+// About the box's middle.
 std::vector<float> gltf_positions(const MeshData& mesh, const double middle[3], double& rounding_m) {
     std::vector<float> out;
     out.reserve(mesh.positions.size());
     for (size_t i = 0; i < mesh.positions.size(); i += 3) {
-        double relative[3] = {mesh.positions[i] - middle[0], mesh.positions[i + 2] - middle[2],
-                              -(mesh.positions[i + 1] - middle[1])};
-        for (double value : relative) {
+        for (double value : gltf_axes(mesh, mesh.positions[i] - middle[0], mesh.positions[i + 1] - middle[1],
+                                      mesh.positions[i + 2] - middle[2])) {
             out.push_back(float(value));
             rounding_m = std::max(rounding_m, std::abs(double(float(value)) - value));
         }
@@ -127,7 +133,8 @@ tinygltf::Model model_of(const MeshData& mesh, MeshReport& report) {
     model.meshes.push_back(gltf_mesh);
     tinygltf::Node node;
     node.mesh = 0;
-    node.translation = {middle[0], middle[2], -middle[1]};
+    std::array<double, 3> centre = gltf_axes(mesh, middle[0], middle[1], middle[2]);
+    node.translation.assign(centre.begin(), centre.end());
     model.nodes.push_back(node);
     tinygltf::Scene scene;
     scene.nodes.push_back(0);

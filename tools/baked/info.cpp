@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "formats/caveclod.h"
 #include "formats/container.h"
+#include "formats/numbers.h"
 #include "formats/terrain.h"
 #include "tools/baked/verbs.h"
 
@@ -67,6 +70,39 @@ ordered_json terrain_json(const terrain::Terrain& terrain, uint64_t terrain_byte
     return json;
 }
 
+ordered_json mesh_json(const caveclod::Hierarchy& h, uint64_t file_bytes) {
+    float coarsest_m = h.finest_error_m;
+    for (float error_m : h.error_m) coarsest_m = std::max(coarsest_m, error_m);
+    uint16_t packed = 0;
+    for (uint16_t id : h.group_packed) packed = std::max(packed, id);
+    ordered_json surfaces = ordered_json::array();
+    for (const caveclod::Surface& surface : h.surfaces)
+        surfaces.push_back({{"name", surface.name}, {"texture", surface.texture}, {"texture_bytes", surface.texture_bytes.size()}});
+    return {{"triangles", h.face_positions.size()},
+            {"triangles_coarsest", h.base_face_count},
+            {"positions", h.positions_m.size()},
+            {"render_vertices", h.vertices.size()},
+            {"splits", h.split_count()},
+            {"needs", h.needs.size()},
+            {"surface_groups", h.group_surface.size()},
+            {"packed_ids", h.group_packed.empty() ? 0 : packed + 1},
+            {"surfaces", surfaces},
+            {"finest_error_m", double(h.finest_error_m)},
+            {"coarsest_error_m", double(coarsest_m)},
+            {"bits_per_triangle", 8.0 * double(file_bytes) / double(std::max<size_t>(1, h.face_positions.size()))}};
+}
+
+void print_mesh(const ordered_json& m) {
+    fmt::print("mesh: {} triangles, {} at the coarsest; {} positions, {} render vertices\n",
+               with_commas(m["triangles"].get<uint64_t>()), with_commas(m["triangles_coarsest"].get<uint64_t>()),
+               with_commas(m["positions"].get<uint64_t>()), with_commas(m["render_vertices"].get<uint64_t>()));
+    fmt::print("surfaces: {}, in {} groups with {} ids\n", m["surfaces"].size(), m["surface_groups"].get<uint64_t>(),
+               m["packed_ids"].get<uint64_t>());
+    fmt::print("promise: any error from {:.4g} m (finest) to {:.4g} m (coarsest), two-sided, against the source\n",
+               m["finest_error_m"].get<double>(), m["coarsest_error_m"].get<double>());
+    fmt::print("size: {:.1f} bits a triangle\n", m["bits_per_triangle"].get<double>());
+}
+
 void print_text(const ordered_json& json) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
@@ -92,6 +128,7 @@ void print_text(const ordered_json& json) {
                        t["place"]["crs"].get<std::string>(), t["place"]["centre_latitude_deg"].get<double>(),
                        t["place"]["centre_longitude_deg"].get<double>(), 100 * t["place"]["scale_distortion"].get<double>());
     }
+    if (json.contains("mesh")) print_mesh(json["mesh"]);
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
@@ -120,6 +157,14 @@ int info(const InfoArgs& args, const command::Common& common) {
                 section.tag == container::tag("TINF"))
                 terrain_bytes += section.stored_bytes;
         json["terrain"] = terrain_json(*read, terrain_bytes);
+    }
+    if (file->kind() == caveclod::kKind) {
+        auto read = caveclod::read(*file);
+        if (!read) return command::fail("baked info", read.error());
+        uint64_t hierarchy_bytes = 0;  // without textures
+        for (const container::Section& section : file->sections())
+            if (section.tag != container::tag("MSUR")) hierarchy_bytes += section.stored_bytes;
+        json["mesh"] = mesh_json(*read, hierarchy_bytes);
     }
     json["provenance"] = provenance_json(*provenance);
     if (common.json)

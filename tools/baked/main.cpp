@@ -18,13 +18,17 @@ int main(int argc, char** argv) {
 
     CLI::App* verify_verb = app.add_subcommand(
         "verify",
-        "Re-proves every promise of a baked terrain against the elevation model that it was baked from; exit 1 if one is broken");
+        "Re-proves a file's promises against the elevation model or the mesh that it was baked from; exit 1 if one is broken");
     verify_verb->add_option("FILE", verify.file, "A baked file")->required();
-    verify_verb->add_option("--source", verify.source, "The elevation model it was baked from")->required();
+    verify_verb->add_option("--source", verify.source, "The elevation model or the mesh it was baked from")->required();
     verify_verb
         ->add_option("--error-m", verify.error_m,
-                     "Tolerances in metres at which a whole cut is checked; may be repeated (default 100, 50, 20, 5, 1)")
+                     "Of a terrain: tolerances in metres at which a whole cut is checked; may be repeated (default 100, 50, 20, "
+                     "5, 1)")
         ->check(command::number_in(0.0, 1e6));
+    verify_verb->add_option("--cuts", verify.cuts, "Of a mesh: how many random legal cuts are measured (--seed chooses which)")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
 
     CLI::App* diff_verb = app.add_subcommand("diff", "Compares two baked files; exit 1 if they differ");
     diff_verb->add_option("A", diff.a, "A baked file")->required();
@@ -33,7 +37,7 @@ int main(int argc, char** argv) {
     CLI::App* export_verb = app.add_subcommand("export", "Writes the triangles of one cut as a mesh (.ply, .glb)");
     export_verb->add_option("FILE", cut.file, "A baked file")->required();
     export_verb
-        ->add_option("--error-m", cut.error_m, "Greatest vertical distance in metres between the mesh and any sample it covers")
+        ->add_option("--error-m", cut.error_m, "Greatest distance in metres between the cut and its source (of a terrain: vertical, to any sample)")
         ->required()
         ->check(command::number_in(0.0, 1e6));
     export_verb->add_option("-o,--output", cut.output, "The mesh: .ply or .glb")->required();
@@ -43,8 +47,15 @@ int main(int argc, char** argv) {
                      "first), z = metres, for checking")
         ->check(CLI::IsMember({"local", "raster"}))
         ->capture_default_str();
+    export_verb
+        ->add_option("--colour", cut.colour,
+                     "Of a mesh. source: its own colours. group: one for each surface group. class: free green, sharp yellow, rigid "
+                     "red")
+        ->check(CLI::IsMember({"source", "group", "class"}))
+        ->capture_default_str();
 
-    for (CLI::App* verb : {info_verb, verify_verb, diff_verb, export_verb}) command::add_common(*verb, common);
+    for (CLI::App* verb : {info_verb, diff_verb, export_verb}) command::add_common(*verb, common);
+    command::add_common(*verify_verb, common, command::Uses::seed);
     return command::run(app, common, argc, argv, [&] {
         if (info_verb->parsed()) return baked::info(info, common);
         if (verify_verb->parsed()) return baked::verify(verify, common);

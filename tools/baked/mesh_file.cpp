@@ -55,6 +55,8 @@ void append_number(std::string& out, T value) {
     out.append(bytes, sizeof(T));
 }
 
+}  // namespace
+
 Result<void> write_ply(const std::string& path, const MeshData& mesh, MeshReport& report) {
     bool floats_are_exact =
         std::all_of(mesh.positions.begin(), mesh.positions.end(), [](double p) { return double(float(p)) == p; });
@@ -80,19 +82,21 @@ Result<void> write_ply(const std::string& path, const MeshData& mesh, MeshReport
     return write_file(path, std::string_view(out));
 }
 
-}  // namespace
-
-Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const terrain::Terrain& terrain,
-                              std::span<const uint32_t> indices) {
+Result<MeshReport> write_triangles(const std::string& path, const MeshData& mesh) {
     bool is_ply = ends_with(path, ".ply"), is_glb = ends_with(path, ".glb");
     if (!is_ply && !is_glb) return bad_command("{}: a mesh is written as .ply or .glb; another ending was given", path);
-    if (is_glb && space == MeshSpace::raster) return bad_command("{}: raster space is for .ply; glTF is in metres", path);
-    MeshData mesh = mesh_of(space, terrain, indices);
     MeshReport report;
     report.vertex_count = mesh.positions.size() / 3, report.triangle_count = mesh.indices.size() / 3;
     Result<void> written = is_ply ? write_ply(path, mesh, report) : write_glb(path, mesh, report);
     if (!written) return tl::unexpected(written.error());
     return report;
+}
+
+Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const terrain::Terrain& terrain,
+                              std::span<const uint32_t> indices) {
+    if (ends_with(path, ".glb") && space == MeshSpace::raster)
+        return bad_command("{}: raster space is for .ply; glTF is in metres", path);
+    return write_triangles(path, mesh_of(space, terrain, indices));
 }
 
 }  // namespace overlook

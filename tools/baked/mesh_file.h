@@ -30,10 +30,14 @@ Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const te
 
 // One triangle list with positions and colours, ready for a file.
 struct MeshData {
+    bool has_own_axes = false;      // axes are the file's, whatever they mean; else z is height, which glTF has as y
     std::vector<double> positions;  // [3n]
     std::vector<uint8_t> colours;   // [3n] or empty
     std::vector<uint32_t> indices;  // [3m], counter-clockwise seen from outside
 };
+Result<void> write_ply(const std::string& path, const MeshData& mesh, MeshReport& report);
+// By the path's extension: write_ply or write_glb. Fails with Exit::bad_command for another.
+Result<MeshReport> write_triangles(const std::string& path, const MeshData& mesh);
 Result<void> write_glb(const std::string& path, const MeshData& mesh, MeshReport& report);
 
 }  // namespace overlook

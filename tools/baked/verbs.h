@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/container.h"
 #include "runtime/command/command.h"
 
 namespace overlook::baked {
@@ -15,7 +16,8 @@ struct InfoArgs {
 struct VerifyArgs {
     std::string file;
     std::string source;
-    std::vector<double> error_m;  // tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
+    std::vector<double> error_m;  // terrain: tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
+    uint32_t cuts = 200;          // mesh: how many random cuts to check
 };
 struct DiffArgs {
     std::string a, b;
@@ -25,6 +27,7 @@ struct ExportArgs {
     double error_m = -1;
     std::string output;
     std::string space = "local";
+    std::string colour = "source";  // mesh: source, group, class
 };
 
 // Each returns the command's exit code, having printed its answer to stdout (as JSON with --json) and its talk to stderr.
@@ -32,5 +35,11 @@ int info(const InfoArgs& args, const command::Common& common);
 int verify(const VerifyArgs& args, const command::Common& common);
 int diff(const DiffArgs& args, const command::Common& common);
 int export_cut(const ExportArgs& args, const command::Common& common);
+
+// The same for one kind of file, which is open.
+int verify_terrain(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
+int verify_mesh(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
+int export_terrain(const ExportArgs& args, const container::Reader& file, const command::Common& common);
+int export_mesh(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 
 }  // namespace overlook::baked

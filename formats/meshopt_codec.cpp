@@ -1,0 +1,60 @@
+// The seam to meshoptimizer.
+#include <meshoptimizer.h>
+
+#include <array>
+#include <cassert>
+
+#include "formats/little_endian.h"
+#include "formats/value_codecs.h"
+
+namespace overlook {
+namespace {
+
+// The codec stores each byte's difference to that of the element before, small ones either way in few bits (zigzag). A value's
+// byte b goes in as the sum of all before: the difference that the codec takes is b itself, made signed so that small values stay
+// small.
+uint8_t folded(uint8_t byte) {  // 0 1 2 3 .. -> 0 -1 1 -2 ..
+    return uint8_t((byte & 1) != 0 ? ~(byte >> 1) : byte >> 1);
+}
+uint8_t unfolded(uint8_t byte) {
+    return uint8_t((byte & 0x80) != 0 ? (uint8_t(~byte) << 1) | 1 : byte << 1);
+}
+
+}  // namespace
+
+std::vector<std::byte> meshopt_packed(std::span<const uint32_t> values) {
+    assert(!values.empty() && values.size() <= kMostChunkValues);
+    std::vector<std::byte> sums(values.size() * 4);
+    std::array<uint8_t, 4> sum{};
+    for (size_t i = 0; i < values.size(); ++i) {
+        for (size_t byte = 0; byte < 4; ++byte) {
+            sum[byte] = uint8_t(sum[byte] + folded(uint8_t(values[i] >> (8 * byte))));
+            sums[4 * i + byte] = std::byte(sum[byte]);
+        }
+    }
+    std::vector<std::byte> packed(meshopt_encodeVertexBufferBound(values.size(), 4));
+    packed.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(packed.data()), packed.size(), sums.data(),
+                                             values.size(), 4));
+    return packed;
+}
+
+bool meshopt_unpack(std::span<const std::byte> packed, std::span<uint32_t> values) {
+    if (values.empty() || values.size() > kMostChunkValues || packed.empty()) return false;
+    std::vector<std::byte> sums(values.size() * 4);
+    if (meshopt_decodeVertexBuffer(sums.data(), values.size(), 4, reinterpret_cast<const unsigned char*>(packed.data()),
+                                   packed.size()) != 0)
+        return false;
+    std::array<uint8_t, 4> sum{};
+    for (size_t i = 0; i < values.size(); ++i) {
+        uint32_t value = 0;
+        for (size_t byte = 0; byte < 4; ++byte) {
+            uint8_t now = uint8_t(sums[4 * i + byte]);
+            value |= uint32_t(unfolded(uint8_t(now - sum[byte]))) << (8 * byte);
+            sum[byte] = now;
+        }
+        values[i] = value;
+    }
+    return true;
+}
+
+}  // namespace overlook

@@ -1,0 +1,25 @@
+// The seams to the libraries that pack rows of numbers: each makes bytes of values and takes them back, bounded.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace overlook {
+
+// Values of a row at once; longer rows are cut into chunks.
+constexpr size_t kMostChunkValues = 1 << 16;
+
+// meshoptimizer's vertex codec over 1 .. kMostChunkValues values (A. Kapoulkine 2017): byte by byte, differences to the value
+// before, which are taken beforehand so that the codec's own differences are the values. The same bytes on any machine.
+std::vector<std::byte> meshopt_packed(std::span<const uint32_t> values);
+// Fills `values` from exactly these bytes; false if they are not its. `packed` may be hostile.
+bool meshopt_unpack(std::span<const std::byte> packed, std::span<uint32_t> values);
+
+// Draco's symbol coding (rANS: J. Duda, 2013) over the same; nothing if Draco cannot.
+std::optional<std::vector<std::byte>> draco_packed(std::span<const uint32_t> values);
+bool draco_unpack(std::span<const std::byte> packed, std::span<uint32_t> values);
+
+}  // namespace overlook

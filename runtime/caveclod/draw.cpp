@@ -1,0 +1,225 @@
+#include "runtime/caveclod/draw.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "runtime/caveclod/draw_shaders.h"
+#include "runtime/gl/png.h"
+
+namespace overlook::caveclod {
+namespace {
+
+constexpr size_t kPageBytes = 3 * kPageFaces * sizeof(uint32_t);
+
+// A buffer as a texture of one row, which a shader may read at any place.
+gl::Texture view_of(GLuint buffer, GLenum format) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+    glTextureBuffer(id, format, buffer);
+    return gl::Texture(id);
+}
+
+gl::Texture texture_of(const ImageRgba8& image) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &id);
+    gl::Texture texture(id);
+    GLsizei levels = 1 + GLsizei(std::log2(std::max(image.width, image.height)));
+    glTextureStorage2D(id, levels, GL_SRGB8_ALPHA8, GLsizei(image.width), GLsizei(image.height));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id, 0, 0, 0, GLsizei(image.width), GLsizei(image.height), GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+    glGenerateTextureMipmap(id);
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+float linear_of(uint8_t encoded) {
+    double value = encoded / 255.0;
+    return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+}
+
+}  // namespace
+
+CameraBuffers::CameraBuffers(const Mesh& mesh) : surfaces_(mesh.surface_count()) {
+    const GlideVertex none{};
+    glides_.fill(std::as_bytes(std::span(&none, 1)));
+    glides_view_ = view_of(glides_.id(), GL_RGB32UI);
+}
+
+void CameraBuffers::take_surface(const FaceSlots& faces, uint32_t surface) {
+    Indices& indices = surfaces_[surface];
+    auto pages = faces.pages(surface);
+    bool is_new = pages.size() > indices.capacity_pages;
+    if (is_new) {
+        indices.capacity_pages = pages.size() + pages.size() / 4;
+        GLuint id = 0;
+        glCreateBuffers(1, &id);
+        indices.buffer = gl::Buffer(id);
+        glNamedBufferData(id, GLsizeiptr(indices.capacity_pages * kPageBytes), nullptr, GL_DYNAMIC_DRAW);
+    }
+    for (uint32_t p = 0; p < pages.size(); ++p) {
+        const FacePage& page = *pages[p];
+        uint32_t begin = is_new ? 0 : page.dirty_begin;
+        uint32_t end = is_new ? faces.page_count(surface, p) : std::min<uint32_t>(page.dirty_end, faces.page_count(surface, p));
+        if (begin >= end) continue;
+        size_t bytes = 3 * sizeof(uint32_t) * (end - begin);
+        glNamedBufferSubData(indices.buffer.id(), GLintptr(p * kPageBytes + 3 * sizeof(uint32_t) * begin), GLsizeiptr(bytes),
+                             page.indices.data() + 3 * size_t(begin));
+        uploaded_bytes_ += bytes;
+    }
+    indices.face_count = faces.face_count(surface);
+}
+
+void CameraBuffers::take(Refinement& refinement) {
+    uploaded_bytes_ = 0;
+    for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) take_surface(refinement.faces(), surface);
+    static_assert(sizeof(GlideVertex) == 12);
+    auto glides = std::as_bytes(refinement.glide_vertices());
+    if (!glides.empty()) glides_.fill(glides);
+    uploaded_bytes_ += glides.size();
+    refinement.clear_dirty();
+}
+
+uint64_t CameraBuffers::triangle_count() const {
+    uint64_t count = 0;
+    for (const Indices& indices : surfaces_) count += indices.face_count;
+    return count;
+}
+
+Result<Drawing> Drawing::make(const Mesh& mesh) {
+    GLint most_texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+    if (mesh.vertex_count() > uint32_t(most_texels))
+        return impossible("a mesh of {} vertices is too large to draw at once ({} at most)", mesh.vertex_count(), most_texels);
+    Drawing made;
+    made.origin_m_ = mesh.origin_m(), made.grid_ = mesh.grid(), made.vertex_count_ = mesh.vertex_count();
+    made.vertices_ = gl::make_buffer(std::as_bytes(mesh.vertices()));
+    made.vertices_view_ = view_of(made.vertices_.id(), GL_RGBA32UI);
+    if (!mesh.colours().empty()) {
+        made.colours_ = gl::make_buffer(std::as_bytes(mesh.colours()));
+        made.colours_view_ = view_of(made.colours_.id(), GL_R32UI);
+    }
+    if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the mesh does not fit into the renderer's memory");
+    made.grid_.normal_bits = mesh.attributes().normals ? made.grid_.normal_bits : 0;
+    made.nothing_ = gl::make_vertex_array();
+    if (Result<void> looks = made.make_looks(mesh); !looks) return tl::unexpected(looks.error());
+    if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
+    return made;
+}
+
+Result<void> Drawing::make_looks(const Mesh& mesh) {
+    GLint most_px = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+    for (const caveclod::Surface& surface : mesh.surfaces()) {
+        ImageRgba8 picture{1, 1, {255, 255, 255, 255}};
+        if (!surface.texture_bytes.empty()) {
+            Result<ImageRgba8> decoded = decode_png(surface.texture, surface.texture_bytes);
+            if (!decoded)
+                faults_.push_back(decoded.error().message);
+            else if (std::max(decoded->width, decoded->height) > uint32_t(most_px))
+                return impossible("{}: the picture of {} x {} pixels is too large for this renderer ({} at most)", surface.texture,
+                                  decoded->width, decoded->height, most_px);
+            else
+                picture = std::move(*decoded);
+        }
+        Look look;
+        look.picture = texture_of(picture);
+        look.colour = {linear_of(surface.colour[0]), linear_of(surface.colour[1]), linear_of(surface.colour[2]),
+                       float(surface.colour[3]) / 255};
+        if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
+        look.is_two_sided = surface.is_two_sided;
+        looks_.push_back(std::move(look));
+    }
+    return {};
+}
+
+Result<void> Drawing::make_programs() {
+    auto shaded = program({"mesh", "", shaders::kShadedMain});
+    if (!shaded) return tl::unexpected(shaded.error());
+    auto background = gl::Program::make("background", {{GL_VERTEX_SHADER, shaders::kBackgroundVertex},
+                                                       {GL_FRAGMENT_SHADER, shaders::kBackgroundFragment}});
+    if (!background) return tl::unexpected(background.error());
+    shaded_ = std::move(*shaded);
+    background_ = std::move(*background);
+    return {};
+}
+
+Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
+    std::string vertex =
+        shaders::kMeshVertexInputs + (shader.vertex.empty() ? shaders::kUnmoved : shader.vertex) + shaders::kMeshVertexMain;
+    std::string fragment = std::string(shaders::kMeshFragment) + shader.fragment;
+    return gl::Program::make(shader.name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
+}
+
+void Drawing::set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const {
+    constexpr double kFarthestStep = 1 << 30;
+    glm::dvec3 place = (camera.position_m - options.origin_m - origin_m_) / grid_.position_step_m;
+    glm::dvec3 whole = glm::clamp(glm::floor(place), -kFarthestStep, kFarthestStep), rest = place - whole;
+    glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
+    glUniform1ui(program.at("vertex_count"), vertex_count_);
+    glUniform1ui(program.at("low_bits"), grid_.position_bits > 16 ? grid_.position_bits - 16 : 0);
+    glUniform1i(program.at("has_colours"), colours_.id() != 0 ? 1 : 0);
+    glUniform3i(program.at("camera_steps"), GLint(whole.x), GLint(whole.y), GLint(whole.z));
+    glUniform3f(program.at("camera_rest"), float(rest.x), float(rest.y), float(rest.z));
+    glUniform1f(program.at("step_m"), float(grid_.position_step_m));
+    glUniform2f(program.at("uv_low"), float(grid_.uv_low.x), float(grid_.uv_low.y));
+    glUniform1f(program.at("uv_step"), float(grid_.uv_step));
+    glUniform1i(program.at("has_normals"), grid_.normal_bits > 0 ? 1 : 0);
+    glUniform1f(program.at("normal_step"), grid_.normal_bits > 0 ? 1.0f / float((1u << (grid_.normal_bits - 1)) - 1) : 1.0f);
+    glUniformMatrix4fv(program.at("clip_from_relative"), 1, GL_FALSE, glm::value_ptr(clip_from_relative));
+}
+
+void Drawing::draw_with(const gl::Program& program, const CameraBuffers& buffers, const view::Camera& camera,
+                        const DrawOptions& options) const {
+    program.use();
+    set_camera(program, camera, options);
+    glBindTextureUnit(1, vertices_view_.id());
+    glBindTextureUnit(2, buffers.glides_view_.id());
+    glBindTextureUnit(3, colours_.id() != 0 ? colours_view_.id() : vertices_view_.id());
+    glBindVertexArray(nothing_.id());
+    for (size_t i = 0; i < looks_.size(); ++i) {
+        const CameraBuffers::Indices& indices = buffers.surfaces_[i];
+        if (indices.face_count == 0) continue;
+        const Look& look = looks_[i];
+        if (options.culls_back_faces && !look.is_two_sided)
+            glEnable(GL_CULL_FACE);
+        else
+            glDisable(GL_CULL_FACE);
+        glBindTextureUnit(0, look.picture.id());
+        glUniform4fv(program.at("base_colour"), 1, glm::value_ptr(look.colour));
+        glUniform1f(program.at("alpha_cutoff"), look.alpha_cutoff);
+        glVertexArrayElementBuffer(nothing_.id(), indices.buffer.id());
+        glDrawElements(GL_TRIANGLES, GLsizei(3 * indices.face_count), GL_UNSIGNED_INT, nullptr);
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+void Drawing::draw_background(const view::Camera& camera) const {
+    glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
+    background_.use();
+    glUniformMatrix3fv(background_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
+    glUniform1f(background_.at("focal_px"), float(view::focal_px(camera)));
+    glUniform2f(background_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
+    glBindVertexArray(nothing_.id());
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_GEQUAL);  // it is drawn at depth 0
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+}
+
+void Drawing::draw(const gl::Target& target, const CameraBuffers& buffers, const view::Camera& camera,
+                   const DrawOptions& options) const {
+    target.bind();
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    if (options.is_wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    draw_with(shaded_, buffers, camera, options);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    draw_background(camera);
+    target.resolve();
+}
+
+}  // namespace overlook::caveclod

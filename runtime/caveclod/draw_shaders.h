@@ -1,0 +1,151 @@
+// The shaders of draw.cpp. Colours are mixed in linear light and written sRGB-encoded.
+#pragma once
+
+namespace overlook::caveclod::shaders {
+
+// A vertex is one of the mesh, or from vertex_count on one on its way between two of them.
+inline constexpr char kMeshVertexInputs[] = R"(#version 450 core
+layout(binding = 1) uniform usamplerBuffer vertices;  // four words: position, high and low; normal; uv
+layout(binding = 2) uniform usamplerBuffer glides;    // to, from, the bits of the share
+layout(binding = 3) uniform usamplerBuffer colours;   // red in the lowest byte
+uniform uint vertex_count;
+uniform uint low_bits;
+uniform bool has_colours;
+uniform ivec3 camera_steps;                   // whole steps of the camera's place, and what is left of it
+uniform vec3 camera_rest;
+uniform float step_m;
+uniform vec2 uv_low;
+uniform float uv_step;
+uniform float normal_step;
+uniform mat4 clip_from_relative;
+out Surface {
+    vec3 relative_m;
+    vec3 normal;
+    vec2 uv;
+    vec4 tint;
+} surface;
+)";
+
+// Vertices are drawn where they are.
+inline constexpr char kUnmoved[] = R"(
+vec3 placed(vec3 relative_m) {
+    return relative_m;
+}
+)";
+
+inline constexpr char kMeshVertexMain[] = R"(
+struct Vertex {
+    vec3 relative_m;
+    vec3 normal;
+    vec2 uv;
+    vec4 tint;
+};
+
+vec4 linear_of(uint word) {
+    vec4 encoded = unpackUnorm4x8(word);
+    vec3 low = encoded.rgb / 12.92, high = pow((encoded.rgb + 0.055) / 1.055, vec3(2.4));
+    return vec4(mix(high, low, lessThanEqual(encoded.rgb, vec3(0.04045))), encoded.a);
+}
+
+Vertex vertex_at(uint id) {
+    uvec4 words = texelFetch(vertices, int(id));
+    uvec3 high = uvec3(words.x & 0xffffu, words.x >> 16, words.y & 0xffffu);
+    uint packed_low = words.y >> 16;
+    uvec3 low = uvec3(packed_low & 15u, packed_low >> 4 & 15u, packed_low >> 8 & 15u);
+    ivec3 steps = ivec3(high << low_bits | low);
+    vec2 at = vec2(ivec2(int(words.z << 16) >> 16, int(words.z) >> 16)) * normal_step;
+    vec3 normal = vec3(at, 1.0 - abs(at.x) - abs(at.y));
+    if (normal.z < 0.0) normal.xy = (1.0 - abs(at.yx)) * vec2(at.x < 0.0 ? -1.0 : 1.0, at.y < 0.0 ? -1.0 : 1.0);
+    Vertex vertex;
+    vertex.relative_m = (vec3(steps - camera_steps) - camera_rest) * step_m;
+    vertex.normal = normal;
+    vertex.uv = uv_low + vec2(words.w & 0xffffu, words.w >> 16) * uv_step;
+    vertex.tint = has_colours ? linear_of(texelFetch(colours, int(id)).r) : vec4(1.0);
+    return vertex;
+}
+
+void main() {
+    uint id = uint(gl_VertexID);
+    Vertex vertex;
+    if (id < vertex_count) {
+        vertex = vertex_at(id);
+    } else {
+        uvec3 glide = texelFetch(glides, int(id - vertex_count)).xyz;
+        Vertex to = vertex_at(glide.x), from = vertex_at(glide.y);
+        float share = uintBitsToFloat(glide.z);
+        vertex.relative_m = mix(from.relative_m, to.relative_m, share);
+        vertex.normal = mix(normalize(from.normal), normalize(to.normal), share);
+        vertex.uv = mix(from.uv, to.uv, share);
+        vertex.tint = mix(from.tint, to.tint, share);
+    }
+    surface.relative_m = placed(vertex.relative_m);
+    surface.normal = vertex.normal;
+    surface.uv = vertex.uv;
+    surface.tint = vertex.tint;
+    gl_Position = clip_from_relative * vec4(surface.relative_m, 1.0);
+}
+)";
+
+inline constexpr char kMeshFragment[] = R"(#version 450 core
+in Surface {
+    vec3 relative_m;
+    vec3 normal;
+    vec2 uv;
+    vec4 tint;
+} surface;
+layout(binding = 0) uniform sampler2D picture;
+uniform vec4 base_colour;
+uniform float alpha_cutoff;
+uniform bool has_normals;
+out vec4 colour;
+
+vec3 encoded(vec3 linear) {
+    vec3 low = linear * 12.92;
+    vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
+    return mix(high, low, lessThanEqual(linear, vec3(0.0031308)));
+}
+
+// Of the surface near the pixel: light from the upper left, and a little from the eye.
+vec3 own_colour(vec3 at_m) {
+    vec4 own = base_colour * surface.tint * texture(picture, surface.uv);
+    if (own.a < alpha_cutoff) discard;
+    vec3 flat_normal = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
+    if (dot(flat_normal, surface.relative_m) > 0.0) flat_normal = -flat_normal;
+    vec3 normal = has_normals ? normalize(surface.normal) : flat_normal;
+    if (dot(normal, flat_normal) < 0.0) normal = -normal;
+    float light = 0.25 + 0.6 * max(0.0, dot(normal, normalize(vec3(-0.5, -0.3, 0.8))));
+    return own.rgb * (light + 0.15 * max(0.0, dot(normal, -normalize(surface.relative_m))));
+}
+
+// No air stands before a model.
+vec3 behind_air(vec3 linear, vec3 at_m) {
+    return linear;
+}
+)";
+
+inline constexpr char kShadedMain[] = R"(
+void main() {
+    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
+}
+)";
+
+inline constexpr char kBackgroundVertex[] = R"(#version 450 core
+void main() {
+    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(corner, 0.0, 1.0);
+}
+)";
+
+// Lighter above the horizon than below.
+inline constexpr char kBackgroundFragment[] = R"(#version 450 core
+uniform mat3 world_from_eye;
+uniform float focal_px;
+uniform vec2 middle_px;
+out vec4 colour;
+void main() {
+    float up = normalize(world_from_eye * vec3((gl_FragCoord.xy - middle_px) / focal_px, -1.0)).z;
+    colour = vec4(mix(vec3(0.30, 0.33, 0.38), vec3(0.62, 0.68, 0.76), 0.5 + 0.5 * up), 1.0);
+}
+)";
+
+}  // namespace overlook::caveclod::shaders

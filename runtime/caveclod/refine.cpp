@@ -1,0 +1,209 @@
+#include "runtime/caveclod/refine.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+
+#include "formats/parallel.h"
+#include "runtime/caveclod/refine_frame.h"
+#include "runtime/caveclod/screen_test.h"
+
+namespace overlook::caveclod {
+
+Refinement::Refinement(const Mesh& mesh) : mesh_(mesh), faces_(mesh.surface_count(), mesh.slot_bits()) {
+    for (Bits* bits : {&applied_, &open_, &gliding_}) bits->assign((mesh.split_count() + 63) / 64, 0);
+    for (uint32_t face = 0; face < mesh.base_face_count(); ++face)
+        faces_.add(mesh.base_surface(face), face, mesh.base_faces()[face]);
+    for (uint32_t root : mesh.roots()) open(root);
+}
+
+void Refinement::evaluate(Frame& frame, uint32_t split) {
+    ++frame.report.evaluated_count;
+    auto answer = frame.test(split);
+    if (has(applied_, split)) {
+        if (has(gliding_, split)) {
+            if (answer.must_split)
+                finish_glide(split);
+            else
+                frame.report.error_px = std::max(frame.report.error_px, answer.seen_error_px);
+            if (answer.wants_split && !answer.must_split) glides_.at(split).is_collapsing = false;
+            return;
+        }
+        if (answer.wants_collapse) {
+            collapses_.push_back({answer.error_px, split});
+            std::push_heap(collapses_.begin(), collapses_.end(), std::greater<>());
+        } else if (frame.keeps_reserve) {
+            reserve_.push_back({answer.error_px, split});
+            std::push_heap(reserve_.begin(), reserve_.end(), std::greater<>());
+        }
+    } else if (answer.wants_split) {
+        splits_.push_back({answer.error_px, split});
+        std::push_heap(splits_.begin(), splits_.end());
+    } else {
+        frame.report.error_px = std::max(frame.report.error_px, answer.seen_error_px);
+    }
+}
+
+// All that could change, in order: their bounds are read from front to back.
+void Refinement::evaluate_all(Frame& frame) {
+    for (size_t word = 0; word < open_.size(); ++word)
+        for (uint64_t left = open_[word]; left != 0; left &= left - 1)
+            evaluate(frame, uint32_t(64 * word) + uint32_t(std::countr_zero(left)));
+}
+
+void Refinement::apply(Frame& frame, const Wish& wish) {
+    uint32_t split = wish.split;
+    mesh_.decode(split, record_);
+    for (uint32_t need : record_.needs) {
+        if (has(gliding_, need)) finish_glide(need);
+        close(need);
+    }
+    put(applied_, split, true);
+    for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, move.vertex);
+    for (uint32_t k = 0; k < record_.face_count; ++k)
+        faces_.add(record_.faces[k].surface, record_.faces[k].face, record_.faces[k].vertices);
+    ++frame.report.split_count;
+    if (may_glide(frame, wish)) start_glide(split, false, 0);
+    std::vector<uint32_t> dependents;
+    dependents.swap(record_.dependents);
+    for (uint32_t dependent : dependents) {
+        mesh_.decode_needs(dependent, needs_);
+        if (!std::all_of(needs_.begin(), needs_.end(), [&](uint32_t need) { return has(applied_, need); })) continue;
+        open(dependent);
+        evaluate(frame, dependent);
+    }
+    record_.dependents.swap(dependents);
+}
+
+// The split leaves the faces as they were before it.
+void Refinement::undo(Frame& frame, uint32_t split) {
+    mesh_.decode(split, record_);
+    for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, move.vertex_before);
+    for (uint32_t k = 0; k < record_.face_count; ++k) faces_.remove(record_.faces[k].face);
+    put(applied_, split, false);
+    for (uint32_t dependent : record_.dependents) close(dependent);
+    ++frame.report.collapse_count;
+    for (uint32_t need : record_.needs) {
+        mesh_.decode(need, other_);
+        const std::vector<uint32_t>& others = other_.dependents;
+        if (std::any_of(others.begin(), others.end(), [&](uint32_t other) { return has(applied_, other); })) continue;
+        open(need);
+        evaluate(frame, need);
+    }
+}
+
+// Only what keeps the promise unsplit as well may be seen on its way.
+bool Refinement::may_glide(const Frame& frame, const Wish& wish) const {
+    const Settings& settings = frame.settings;
+    if (settings.glide_s <= 0 || !mesh_.glides(wish.split) || !(wish.error_px >= settings.least_glide_px)) return false;
+    return wish.error_px <= frame.test.least_limit_px();
+}
+
+bool Refinement::collapse_next(Frame& frame) {
+    while (!collapses_.empty()) {
+        std::pop_heap(collapses_.begin(), collapses_.end(), std::greater<>());
+        Wish wish = collapses_.back();
+        collapses_.pop_back();
+        if (!has(applied_, wish.split) || !has(open_, wish.split) || has(gliding_, wish.split)) continue;
+        frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
+        bool is_over_budget = frame.settings.most_triangles > 0 && faces_.face_count() + 2 > frame.settings.most_triangles;
+        if (!is_over_budget && may_glide(frame, wish))
+            start_glide(wish.split, true, 1);
+        else
+            undo(frame, wish.split);
+        return true;
+    }
+    return false;
+}
+
+// Under a budget of triangles, by collapsing what has less than its share of error_px. False if there is nothing such.
+bool Refinement::make_room(Frame& frame, double error_px) {
+    while (!reserve_.empty()) {
+        std::pop_heap(reserve_.begin(), reserve_.end(), std::greater<>());
+        Wish wish = reserve_.back();
+        reserve_.pop_back();
+        if (!has(applied_, wish.split) || !has(open_, wish.split)) continue;
+        if (wish.error_px > error_px * frame.settings.collapse_share) return false;
+        if (has(gliding_, wish.split)) finish_glide(wish.split);
+        undo(frame, wish.split);
+        frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
+        return true;
+    }
+    return false;
+}
+
+bool Refinement::split_next(Frame& frame) {
+    const uint64_t most = frame.settings.most_triangles;
+    while (!splits_.empty()) {
+        Wish wish = splits_.front();
+        bool is_wanted = !has(applied_, wish.split) && has(open_, wish.split);
+        if (is_wanted && most > 0 && faces_.face_count() + 2 > most) {
+            if (collapse_next(frame)) return true;
+            return make_room(frame, wish.error_px);
+        }
+        std::pop_heap(splits_.begin(), splits_.end());
+        splits_.pop_back();
+        if (!is_wanted) continue;
+        apply(frame, wish);
+        return true;
+    }
+    return false;
+}
+
+// Splits and collapses in turn, so that neither waits for the other.
+void Refinement::operate(Frame& frame) {
+    constexpr double kAnyError = 1e300;
+    const uint64_t most = frame.settings.most_triangles;
+    uint64_t& left = frame.operations_left;
+    while (left > 0 && most > 0 && faces_.face_count() > most && (collapse_next(frame) || make_room(frame, kAnyError))) --left;
+    for (bool is_done = false; left > 0 && !is_done;) {
+        is_done = true;
+        if (split_next(frame)) --left, is_done = false;
+        if (left > 0 && collapse_next(frame)) --left, is_done = false;
+    }
+    frame.report.is_settled = left > 0;
+    for (const Wish& wish : splits_)
+        if (!has(applied_, wish.split) && has(open_, wish.split))
+            frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
+}
+
+FrameReport Refinement::refine(const view::Camera& camera, const Settings& settings, double dt_s) {
+    ScreenTest test(mesh_, camera, settings);
+    Frame frame{test, settings, {}, false, settings.most_operations > 0 ? settings.most_operations : ~uint64_t(0)};
+    frame.keeps_reserve = settings.most_triangles > 0 && faces_.face_count() * 8 > settings.most_triangles * 7;
+    splits_.clear(), collapses_.clear(), reserve_.clear();
+    advance_glides(frame, dt_s);
+    evaluate_all(frame);
+    operate(frame);
+    frame.report.triangle_count = faces_.face_count();
+    frame.report.gliding_count = uint32_t(glides_.size());
+    return frame.report;
+}
+
+Refinement::Bytes Refinement::bytes() const {
+    Bytes bytes;
+    for (const Bits* bits : {&applied_, &open_, &gliding_}) bytes.fixed += bits->capacity() * sizeof(uint64_t);
+    bytes.active = faces_.bytes();
+    bytes.glides = glide_vertices_.capacity() * sizeof(GlideVertex) + free_glide_slots_.capacity() * sizeof(uint32_t);
+    for (const auto& [split, glide] : glides_) bytes.glides += sizeof(split) + sizeof(glide) + 2 * sizeof(void*) +
+                                                               glide.slots.capacity() * sizeof(uint32_t);
+    return bytes;
+}
+
+void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings, double dt_s,
+                std::span<FrameReport> reports) {
+    parallel_ranges(refinements.size(), 1,
+                    [&](size_t i, size_t) { reports[i] = refinements[i]->refine(cameras[i], settings, dt_s); });
+}
+
+void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,
+                    const std::function<void(size_t camera)>& draw, std::span<FrameReport> reports) {
+    Settings at_once = settings;
+    at_once.most_operations = 0, at_once.glide_s = 0;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        reports[i] = shared.refine(cameras[i], at_once, 0);
+        draw(i);
+    }
+}
+
+}  // namespace overlook::caveclod

@@ -1,0 +1,131 @@
+// Which faces of a mesh one camera draws: a set of splits that is closed under what they need, changed a little every frame.
+//
+// Based on: H. Hoppe, View-Dependent Refinement of Progressive Meshes, 1997 (incremental refinement, amortised by a budget,
+// geomorphs); B. Kram, C. Shaw, Multiple Camera Considerations in a View-Dependent Continuous Level of Detail Algorithm, 2002 (what
+// is a camera's own); M. Duchaineau et al., ROAMing Terrain, 1997 (two queues under a budget of triangles).
+// Different here: a camera has bits of splits instead of pointers to nodes, and evaluates only splits that could change now: those
+// not applied whose needs all are, and those applied that nothing applied needs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/caveclod/face_slots.h"
+#include "runtime/caveclod/mesh.h"
+#include "runtime/caveclod/settings.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::caveclod {
+
+class ScreenTest;
+
+// A vertex on its way: at the share `share` (0..1) from vertex `from` to vertex `to`.
+struct GlideVertex {
+    uint32_t to = 0, from = 0;
+    float share = 0;
+};
+
+// One camera's refinement of one mesh, which must outlive it. Any number of them may refine one mesh at once, each in one thread.
+//
+// An index of a face is a vertex of the mesh, or mesh.vertex_count() + the place in glide_vertices().
+//
+// Why gliding keeps the promise: a split glides only if its new position is on one side of all the faces it moves, their normals
+// and those of all that they stand for lie within a half-space about one direction, and the star goes round once. Then both forms
+// of the star are heights over one region, seen along that direction; the tetrahedra between the old and the new corner over each
+// face moved all have one orientation, and their sum's boundary is the new form less the old, so they fill what is between the two
+// and nothing else. A corner part of the way lies on the edge between the two corners, and its faces within those tetrahedra: what
+// is drawn lies between what was drawn and what will be drawn. Both keep error_px as cuts of their own: a split begins to glide at
+// kGlideEnter of the error that forces it, and jumps to its place as soon as that is reached. Stars that glide at the same time share no face, since a split that touches another's faces needs it, and is not applied before the other has
+// arrived; so the cuts with every gliding star at its lower, and at its upper form are legal too, and bound the picture from both
+// sides.
+class Refinement {
+  public:
+    explicit Refinement(const Mesh& mesh);
+
+    // Brings the faces nearer to what the camera asks for, by most_operations at most. dt_s >= 0: time since the last frame, for
+    // glides. Cost: O(splits / 64) + O(evaluated) + O(operations * log(operations)).
+    FrameReport refine(const view::Camera& camera, const Settings& settings, double dt_s);
+
+    const FaceSlots& faces() const { return faces_; }
+    std::span<const GlideVertex> glide_vertices() const { return glide_vertices_; }
+    // What draws has taken all that has changed.
+    void clear_dirty() { faces_.clear_dirty(); }
+
+    bool is_applied(uint32_t split) const { return has(applied_, split); }
+    const Mesh& mesh() const { return mesh_; }
+
+    struct Bytes {
+        uint64_t fixed = 0;   // whatever is drawn: bits
+        uint64_t active = 0;  // grows with what is drawn
+        uint64_t glides = 0;  // of that on its way
+    };
+    Bytes bytes() const;
+
+  private:
+    using Bits = std::vector<uint64_t>;
+    static bool has(const Bits& bits, uint32_t i) { return (bits[i / 64] >> (i % 64) & 1) != 0; }
+    static void put(Bits& bits, uint32_t i, bool value) {
+        uint64_t bit = uint64_t(1) << (i % 64);
+        bits[i / 64] = value ? bits[i / 64] | bit : bits[i / 64] & ~bit;
+    }
+
+    struct Wish {
+        double error_px;
+        uint32_t split;
+        // By error, and among equals the coarser before the finer.
+        bool operator<(const Wish& other) const {
+            return error_px != other.error_px ? error_px < other.error_px : split > other.split;
+        }
+        bool operator>(const Wish& other) const { return other < *this; }
+    };
+    struct Glide {
+        float share = 0;
+        bool is_collapsing = false;
+        std::vector<uint32_t> slots;  // in glide_vertices_
+    };
+
+    struct Frame;  // what one call of refine() works with
+
+    void open(uint32_t split) { put(open_, split, true); }
+    void close(uint32_t split) { put(open_, split, false); }
+    void evaluate(Frame& frame, uint32_t split);
+    void evaluate_all(Frame& frame);
+    void operate(Frame& frame);
+    bool split_next(Frame& frame);
+    bool collapse_next(Frame& frame);
+    bool make_room(Frame& frame, double error_px);
+    void apply(Frame& frame, const Wish& wish);
+    bool may_glide(const Frame& frame, const Wish& wish) const;
+    void undo(Frame& frame, uint32_t split);
+
+    void start_glide(uint32_t split, bool is_collapsing, float share);
+    void finish_glide(uint32_t split);
+    void advance_glides(Frame& frame, double dt_s);
+    uint32_t take_glide_slot(const GlideVertex& vertex);
+
+    const Mesh& mesh_;
+    // Of splits: applied; could be applied or undone now; on its way.
+    Bits applied_, open_, gliding_;
+    FaceSlots faces_;
+    std::unordered_map<uint32_t, Glide> glides_;
+    std::vector<GlideVertex> glide_vertices_;
+    std::vector<uint32_t> free_glide_slots_;
+    // Scratch.
+    SplitRecord record_, other_;
+    std::vector<uint32_t> needs_;
+    std::vector<Wish> splits_, collapses_, reserve_;
+};
+
+// Refines each camera's own, several at once; the result is that of one after the other. All spans of one length.
+void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings, double dt_s,
+                std::span<FrameReport> reports);
+
+// The paper's comparison (Kram and Shaw 2002, 4.2), the variant `shared`: one refinement is brought to what each camera wants in turn,
+// every frame, whatever that takes (no budget of operations, nothing glides), and `draw(camera)` is called when it is there.
+void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,
+                    const std::function<void(size_t camera)>& draw, std::span<FrameReport> reports);
+
+}  // namespace overlook::caveclod

@@ -1,0 +1,117 @@
+// Should a split be applied, or undone, for one camera?
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "formats/caveclod.h"
+#include "runtime/caveclod/mesh.h"
+#include "runtime/caveclod/settings.h"
+#include "runtime/view/camera.h"
+#include "runtime/view/pixel_error.h"
+
+namespace overlook::caveclod {
+
+// Everything is taken from a split's sphere and cone, which hold all that it and whatever needs it touch: what is not wanted of a
+// split need not be asked of those. Wanting to split and wanting to collapse leave a band between them in which nothing changes: in pixels, in the
+// frame's borders (H. Hoppe 1997, view frustum and surface orientation), and in how far a cone turns away.
+class ScreenTest {
+  public:
+    ScreenTest(const Mesh& mesh, const view::Camera& camera, const Settings& settings)
+        : mesh_(mesh),
+          bound_(camera),
+          eye_m_(camera.position_m),
+          split_px_(settings.error_px),
+          silhouette_px_(settings.silhouette_error_px > 0 ? settings.silhouette_error_px : settings.error_px),
+          collapse_share_(settings.collapse_share),
+          enter_share_(settings.glide_s > 0 ? kGlideEnter : 1),
+          tests_cones_(settings.culls_back_faces || silhouette_px_ < split_px_),
+          culls_back_faces_(settings.culls_back_faces) {
+        double half_y = camera.fov_y_deg * std::numbers::pi / 360;
+        double half_x = std::atan(std::tan(half_y) * camera.width_px / camera.height_px);
+        double guard = settings.guard_deg * std::numbers::pi / 180;
+        narrow_ = {Side(half_x + guard), Side(half_y + guard)};
+        wide_ = {Side(half_x + 1.5 * guard), Side(half_y + 1.5 * guard)};
+        if (tests_cones_) {
+            for (size_t i = 0; i < 256; ++i)
+                sines_[i] = std::sin(double(i) * std::numbers::pi / 255), cosines_[i] = std::cos(double(i) * std::numbers::pi / 255);
+        }
+    }
+
+    struct Answer {
+        double error_px = 0;       // 0 where nothing is to be seen
+        double seen_error_px = 0;  // the same, 0 also where the guard sector alone is wide enough to keep it
+        // must_split: more than what was asked for. wants_split: what may glide begins before.
+        bool must_split = false, wants_split = false, wants_collapse = true;
+    };
+    // What nothing that is left unsplit may exceed, wherever it is.
+    double least_limit_px() const { return silhouette_px_; }
+
+    Answer operator()(uint32_t split) const {
+        const Bounds& bounds = mesh_.bounds(split);
+        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
+        double radius_m = mesh_.radius_m(split);
+        view::SphereErrorBound::Place place = bound_.place_of(from_eye);
+        if (!wide_.holds(place, radius_m)) return {};
+        Answer answer;
+        answer.error_px = bound_(place, radius_m, mesh_.error_m(split));
+        double limit_px = split_px_, keep_px = split_px_;
+        bool is_hidden = false;
+        if (tests_cones_) {
+            Facing tight = facing(bounds.cone, 0, from_eye, radius_m), loose = facing(bounds.cone, 3, from_eye, radius_m);
+            if (culls_back_faces_ && loose == Facing::away) return {};
+            is_hidden = culls_back_faces_ && tight == Facing::away;
+            if (tight == Facing::both) limit_px = silhouette_px_;
+            if (loose == Facing::both) keep_px = silhouette_px_;
+        }
+        bool is_seen = !is_hidden && narrow_.holds(place, radius_m);
+        answer.seen_error_px = is_seen ? answer.error_px : 0;
+        answer.must_split = is_seen && answer.error_px > limit_px;
+        answer.wants_split = is_seen && answer.error_px > limit_px * enter_share_;
+        answer.wants_collapse = answer.error_px <= keep_px * collapse_share_;
+        return answer;
+    }
+
+  private:
+    // A pair of planes through the eye, at an angle to either side of the axis; none from 90 degrees on.
+    struct Side {
+        double sine = 1, cosine = 0;
+        Side() = default;
+        explicit Side(double angle_rad) {
+            if (angle_rad < std::numbers::pi / 2 - 0.01) sine = std::sin(angle_rad), cosine = std::cos(angle_rad);
+        }
+        bool holds(double across, double forward, double radius_m) const {
+            return cosine == 0 || std::abs(across) * cosine - forward * sine <= radius_m;
+        }
+    };
+    struct Sector {
+        Side x, y;
+        bool holds(const view::SphereErrorBound::Place& place, double radius_m) const {
+            return x.holds(place.right, place.forward, radius_m) && y.holds(place.up, place.forward, radius_m);
+        }
+    };
+
+    enum class Facing { towards, both, away };
+    // Of all normals in a cone, widened by `more` of its 255 steps, at all places of a sphere.
+    Facing facing(const NormalCone& cone, uint32_t more, const glm::dvec3& from_eye_m, double radius_m) const {
+        uint32_t half = cone.half_angle + more;
+        double distance_m = glm::length(from_eye_m);
+        if (half >= 127 || distance_m <= radius_m) return Facing::both;
+        double sine = radius_m / distance_m, cosine = std::sqrt(1 - sine * sine);
+        if (cosines_[half] * cosine - sines_[half] * sine <= 0) return Facing::both;  // together 90 degrees or more
+        double limit = (sines_[half] * cosine + cosines_[half] * sine) * distance_m;
+        double along = glm::dot(axis_of(cone), from_eye_m);
+        return along > limit ? Facing::away : along < -limit ? Facing::towards : Facing::both;
+    }
+
+    const Mesh& mesh_;
+    view::SphereErrorBound bound_;
+    glm::dvec3 eye_m_;
+    double split_px_, silhouette_px_, collapse_share_, enter_share_;
+    bool tests_cones_, culls_back_faces_;
+    Sector narrow_, wide_;
+    std::array<double, 256> sines_{}, cosines_{};
+};
+
+}  // namespace overlook::caveclod

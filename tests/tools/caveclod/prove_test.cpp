@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include "tests/tools/caveclod/test_meshes.h"
+#include "tools/bake/caveclod/bake.h"
+#include "tools/bake/mesh_provenance.h"
+#include "tools/baked/prove_caveclod.h"
+
+namespace overlook::caveclod {
+namespace {
+
+Hierarchy baked(const mesh::Mesh& mesh) {
+    BakeReport report;
+    auto hierarchy = bake(mesh, {}, report, [](double) {});
+    EXPECT_TRUE(hierarchy) << hierarchy.error().message;
+    return *hierarchy;
+}
+
+Proof proof_of(const Hierarchy& hierarchy, const mesh::Mesh& mesh) {
+    ProofOptions options;
+    options.cut_count = 40;
+    return prove(hierarchy, mesh, options, [](double) {});
+}
+
+TEST(MeshProof, HoldsForWhatWasBaked) {
+    mesh::Mesh mesh = test::sphere(48, 24, 0.02);
+    Proof proof = proof_of(baked(mesh), mesh);
+    EXPECT_TRUE(proof.holds()) << proof.broken_law;
+    EXPECT_EQ(proof.triangle_count, mesh.faces.size());
+    EXPECT_GT(proof.cuts.greatest_measured_share, 0.5);
+    EXPECT_LE(proof.finest_moved_m, proof.finest_stated_m);
+}
+
+TEST(MeshProof, FindsErrorsThatAreStatedTooSmall) {
+    mesh::Mesh mesh = test::sphere(48, 24, 0.02);
+    Hierarchy hierarchy = baked(mesh);
+    for (float& error_m : hierarchy.error_m) error_m *= 0.5f;
+    Proof proof = proof_of(hierarchy, mesh);
+    EXPECT_GT(proof.cuts.broken_count, 0u);
+    EXPECT_FALSE(proof.holds());
+}
+
+TEST(MeshProof, FindsTrianglesThatAreLostOrForeign) {
+    mesh::Mesh mesh = test::torus(24, 12, 3, 1);
+    Hierarchy hierarchy = baked(mesh);
+    mesh::Mesh other = mesh;
+    other.positions_m[5] *= 1.01f;
+    Proof proof = proof_of(hierarchy, other);
+    EXPECT_EQ(proof.lost_triangle_count, 6u);
+    EXPECT_EQ(proof.foreign_triangle_count, 6u);
+    EXPECT_FALSE(proof.holds());
+}
+
+TEST(MeshProof, FindsCornersThatMovedFartherThanStated) {
+    mesh::Mesh mesh = test::torus(24, 12, 3, 1);
+    Hierarchy hierarchy = baked(mesh);
+    hierarchy.finest_error_m *= 0.1f;
+    Proof proof = proof_of(hierarchy, mesh);
+    EXPECT_GT(proof.finest_moved_m, proof.finest_stated_m);
+    EXPECT_FALSE(proof.holds());
+}
+
+TEST(MeshProof, FindsABrokenLaw) {
+    mesh::Mesh mesh = test::torus(24, 12, 3, 1);
+    Hierarchy hierarchy = baked(mesh);
+    std::swap(hierarchy.error_m.front(), hierarchy.error_m.back());
+    EXPECT_NE(proof_of(hierarchy, mesh).broken_law, "");
+}
+
+TEST(MeshChoices, ComeBackFromTheirWords) {
+    mesh::BakeChoices choices;
+    choices.input.metres_per_unit = 0.0254;
+    choices.bake.groups.crease_deg = 40;
+    choices.bake.groups.ignores_uv = true;
+    choices.bake.precision.position_bits = 16;
+    container::Provenance provenance{"bake-lod mesh", "1", mesh::options_in_words(choices), {}};
+    EXPECT_EQ(provenance.options.size(), 4u);
+    auto back = mesh::choices_from_words(provenance);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->input.metres_per_unit, 0.0254);
+    EXPECT_EQ(back->bake.groups.crease_deg, 40);
+    EXPECT_TRUE(back->bake.groups.ignores_uv);
+    EXPECT_EQ(back->bake.precision.position_bits, 16u);
+    for (const char* words : {"wide", "200", "nan", "40 "}) {
+        provenance.options = {{"crease-deg", words}};
+        EXPECT_FALSE(mesh::choices_from_words(provenance)) << words;
+    }
+}
+
+}  // namespace
+}  // namespace overlook::caveclod

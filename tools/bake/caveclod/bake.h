@@ -1,0 +1,36 @@
+// A mesh in, a hierarchy ready to be written out: groups, collapses, quantising, what follows from them.
+#pragma once
+
+#include <functional>
+
+#include "formats/caveclod.h"
+#include "tools/bake/caveclod/groups.h"
+#include "tools/bake/caveclod/simplify.h"
+
+namespace overlook::caveclod {
+
+struct BakeOptions {
+    GroupOptions groups;
+    SimplifyOptions simplify;
+    Precision precision;
+};
+
+// What was found and done, in numbers.
+struct BakeReport {
+    uint64_t source_face_count = 0, source_position_count = 0;
+    uint64_t free_count = 0, sharp_count = 0, rigid_count = 0;  // positions by kind
+    uint64_t group_count = 0, packed_count = 0, clique_bound = 0;
+    double dense_population = 0;  // of the paper's index array
+    uint64_t dense_bytes = 0, rows_bytes = 0;
+    uint64_t floor_face_estimate = 0;  // under the strict rule: told before collapsing, by rigid positions and boundary curves
+    SimplifyReport simplify;
+    Quantised quantised;
+};
+
+// Bakes in memory; the hierarchy is quantised, complete and canonical, its errors hold against `mesh` as it is after quantising.
+// A pure function of its arguments, for any number of threads. `progress` is called with the share done, 0..1, from this thread.
+// Fails as find_groups, build_hierarchy and complete do.
+Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeReport& report,
+                       const std::function<void(double)>& progress);
+
+}  // namespace overlook::caveclod

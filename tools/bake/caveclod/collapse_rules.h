@@ -1,0 +1,26 @@
+// Which half-edge collapses keep the surface, its groups and its orientation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tools/bake/caveclod/working_mesh.h"
+
+namespace overlook::caveclod {
+
+// The render vertex that each turned corner of a fan has at the position that stays; [i] belongs to face i.
+using TurnedVertices = std::array<uint32_t, kMostValence>;
+
+// Whether the result is a surface of the same kind: link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999), no face doubled, no
+// closed border or feature curve of three edges folded away, valences below kMostValence.
+bool keeps_topology(const WorkingMesh& mesh, const Fan& fan);
+
+// The rules of Kram and Shaw 2002, 3.3, by wedge: a free position may go anywhere, a sharp one along a feature edge only (of
+// which the other end is then sharp or rigid), a rigid one nowhere; and every turned corner finds at the kept position a render
+// vertex of its own group that its own render vertex shares a going face with. Fills `turned` if so.
+bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turned);
+
+// Whether no turned face degenerates (as seen in float32) or turns its normal by more than about 75 degrees.
+bool keeps_orientation(const WorkingMesh& mesh, const Fan& fan);
+
+}  // namespace overlook::caveclod

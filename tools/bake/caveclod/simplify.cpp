@@ -1,0 +1,29 @@
+#include "tools/bake/caveclod/simplify.h"
+
+#include <algorithm>
+
+#include "tools/bake/caveclod/hierarchy_rows.h"
+#include "tools/bake/caveclod/simplify_passes.h"
+
+namespace overlook::caveclod {
+
+Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, const SimplifyOptions& options,
+                                  SimplifyReport* report) {
+    auto working = make_working_mesh(mesh, groups);
+    if (!working) return tl::unexpected(working.error());
+    SimplifyReport counted;
+    CollapseLog log;
+    Passes passes(*working, counted);
+    while (passes.run(options.least_face_count, log)) {
+    }
+    Hierarchy hierarchy = make_rows(mesh, groups, *working, log);
+    counted.collapse_count = log.gone.size();
+    counted.depth = depth_of(hierarchy);
+    counted.need_count = hierarchy.needs.size();
+    if (!hierarchy.error_m.empty())
+        counted.greatest_error_m = double(*std::max_element(hierarchy.error_m.begin(), hierarchy.error_m.end()));
+    if (report != nullptr) *report = counted;
+    return hierarchy;
+}
+
+}  // namespace overlook::caveclod

@@ -1,0 +1,57 @@
+// From a mesh to the hierarchy of its collapses, with a proven error for each.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "formats/caveclod.h"
+#include "formats/result.h"
+#include "tools/bake/caveclod/groups.h"
+#include "tools/bake/mesh.h"
+
+namespace overlook::caveclod {
+
+struct SimplifyOptions {
+    uint64_t least_face_count = 0;  // stops at so many; 0: when nothing more may be collapsed
+};
+
+// One face corner that a collapse turns, or the corner at the gone position of a face that goes (then `to_vertex` is kNobody's).
+struct Turn {
+    uint32_t corner = 0, from_vertex = 0, to_vertex = 0;
+};
+
+// The collapses in the order in which they were made, as rows.
+struct CollapseLog {
+    std::vector<uint32_t> gone, kept;     // [S] positions
+    std::vector<float> error_m;           // [S] each collapse's own, rounded up
+    std::vector<uint32_t> turn_begin{0};  // [S + 1]
+    std::vector<Turn> turns;
+};
+
+struct SimplifyReport {
+    uint64_t pass_count = 0, collapse_count = 0, postponed_count = 0, refused_count = 0;
+    uint32_t depth = 0;  // of the longest chain of splits that need one another
+    uint64_t need_count = 0;
+    double greatest_error_m = 0;
+    double topology_s = 0, candidates_s = 0, selection_s = 0, measuring_s = 0, applying_s = 0, rows_s = 0;
+};
+
+// Collapses all that the rules allow, cheapest first, in passes of collapses that do not touch one another, so that the splits'
+// needs are shallow and a pass can be shared by threads.
+//
+// mesh, groups: of the same mesh, as find_groups gives them; every promise of Mesh kept. The hierarchy has positions, splits with
+// errors and needs, faces and render vertices; formats/caveclod.h's complete() fills the rest. error_m is the greatest distance
+// that SurfaceMap moves a point of the source over all that the split touches, rounded up and saturated over needs: an upper
+// bound of the two-sided distance, whatever else is drawn. Positions are the mesh's own; quantising them afterwards adds what it
+// moves (add_displacement). Same mesh, same hierarchy, for any number of threads. O(F log F) and about 700 bytes a face. Fails
+// with Exit::bad_input where the mesh is not a surface: "face 12 cannot be added: an edge of it has two faces already, or the
+// faces at a corner are no fan".
+Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, const SimplifyOptions& options,
+                                  SimplifyReport* report = nullptr);
+
+// Where positions have moved by at most displacement_m since the errors were measured: every point of every face has moved by no
+// more, so all errors, and that of the finest cut, grow by it.
+void add_displacement(Hierarchy& hierarchy, double displacement_m);
+
+}  // namespace overlook::caveclod

@@ -1,0 +1,242 @@
+#include "tools/bake/caveclod/simplify_passes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "formats/parallel.h"
+#include "tools/bake/caveclod/attribute_deviation.h"
+
+namespace overlook::caveclod {
+namespace {
+
+constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
+constexpr uint8_t kNothing = 0, kGuess = 1, kAllowed = 2;
+// A pass takes from the cheapest this share of all candidates; those measured worse than kWorst times its limit wait.
+constexpr double kShareOfPass = 0.4, kWorst = 2.5;
+// Below this share of the mesh's size errors are rounding, and all the same.
+constexpr double kLeastLimitShare = 1e-8;
+// The queue keeps costs as float: what waited must not miss its limit by their rounding.
+constexpr double kFloatAllowance = 1 + 1e-6;
+constexpr double kForbidden_m = std::numeric_limits<double>::infinity();
+
+// Adds the time that it lives to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum_s) : sum_s_(sum_s), begin_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() { sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+
+  private:
+    double& sum_s_;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace
+
+Passes::Passes(WorkingMesh& mesh, SimplifyReport& report)
+    : mesh_(mesh), report_(report), quadrics_(make_quadrics(mesh)), map_(make_surface_map(mesh)) {
+    face_count_ = mesh.face_count();
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
+    limit_m_ = kLeastLimitShare * double(glm::length(high - low));
+    size_t position_count = mesh.some_corner.size();
+    for (uint32_t p = 0; p < position_count; ++p)
+        if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
+    candidates_.resize(position_count);
+    known_.assign(position_count, kNothing);
+    touched_in_.assign(position_count, 0);
+    target_in_.assign(position_count, 0);
+}
+
+bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
+    ++pass_;
+    find_queue();
+    if (limit_m_ == kForbidden_m || face_count_ <= least_face_count) return false;
+    select(least_face_count);
+    measure();
+    decide(log);
+    provide_crossings();
+    apply();
+    std::erase_if(alive_, [&](uint32_t p) { return !mesh_.is_alive(p); });
+    ++report_.pass_count;
+    return true;
+}
+
+void Passes::find_queue() {
+    Stopwatch watch(report_.candidates_s);
+    guess_candidates();
+    raise_limit();
+    check_candidates();
+}
+
+void Passes::guess_candidates() {
+    parallel_ranges(alive_.size(), kPositionGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            uint32_t p = alive_[i];
+            if (known_[p] != kNothing) continue;
+            candidates_[p] = guess_candidate(mesh_, quadrics_, p);
+            known_[p] = kGuess;
+        }
+    });
+}
+
+// The queue holds the candidates within the limit, in the order of their positions: neighbours are looked at one after the other.
+void Passes::raise_limit() {
+    costs_.clear(), queue_.clear();
+    for (uint32_t p : alive_)
+        if (candidates_[p].kept != kNone) costs_.push_back(float(candidates_[p].cost_m));
+    if (costs_.empty()) limit_m_ = kForbidden_m;
+    if (costs_.empty()) return;
+    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * kShareOfPass);
+    std::nth_element(costs_.begin(), bound, costs_.end());
+    limit_m_ = std::max(limit_m_, double(*bound));
+    for (uint32_t p : alive_)
+        if (candidates_[p].kept != kNone && double(float(candidates_[p].cost_m)) <= limit_m_)
+            queue_.emplace_back(float(candidates_[p].cost_m), p);
+}
+
+// Only what this pass might take is looked at closely. Cheapest first then.
+void Passes::check_candidates() {
+    parallel_ranges(queue_.size(), kCheckGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            uint32_t p = queue_[i].second;
+            if (known_[p] == kAllowed) continue;
+            candidates_[p] = find_candidate(mesh_, quadrics_, p);
+            known_[p] = kAllowed;
+            queue_[i].first =
+                candidates_[p].kept == kNone ? std::numeric_limits<float>::infinity() : float(candidates_[p].cost_m);
+        }
+    });
+    std::erase_if(queue_, [&](const auto& entry) { return double(entry.first) > limit_m_; });
+    std::sort(queue_.begin(), queue_.end());
+}
+
+void Passes::prepare(const Chosen& chosen, TurnedFan& prepared) const {
+    Star star;
+    gather_star(mesh_, chosen.gone, star);
+    uint32_t at = uint32_t(std::find(star.link.begin(), star.link.begin() + star.count + 1, chosen.kept) - star.link.begin());
+    fan_of(star, chosen.gone, at, prepared.fan);
+    keeps_groups(mesh_, prepared.fan, prepared.turned);
+}
+
+// Collapses of one pass share no face, and none changes the star of a position that another collapses into: so each stays allowed
+// whichever of the others are made.
+bool Passes::claim(uint32_t gone, uint32_t kept) {
+    if (touched_in_[gone] == pass_ || touched_in_[kept] == pass_ || target_in_[gone] == pass_) return false;
+    Star star;
+    if (!gather_star(mesh_, gone, star)) return false;
+    uint32_t count = star.count + uint32_t(!star.is_closed);
+    for (uint32_t i = 0; i < count; ++i)
+        if (target_in_[star.link[i]] == pass_) return false;
+    for (uint32_t i = 0; i < count; ++i) touched_in_[star.link[i]] = pass_;
+    for (uint32_t i = 0; i < star.count; ++i) map_.fan_of_face[star.corner[i] / kCorners] = next_fan_;
+    touched_in_[gone] = pass_;
+    target_in_[kept] = pass_;
+    return true;
+}
+
+void Passes::select(uint64_t least_face_count) {
+    Stopwatch watch(report_.selection_s);
+    chosen_.clear();
+    uint64_t most = (face_count_ - least_face_count + 1) / 2;
+    for (auto [cost, p] : queue_) {
+        if (chosen_.size() >= most) break;
+        if (claim(p, candidates_[p].kept)) chosen_.push_back({p, candidates_[p].kept, next_fan_++, {}, 0, false});
+    }
+    // Made in the order of positions, neighbours find one another's memory warm: several times faster than in the order of cost.
+    std::sort(chosen_.begin(), chosen_.end(), [](const Chosen& a, const Chosen& b) { return a.gone < b.gone; });
+    changes_.resize(std::max(changes_.size(), (chosen_.size() + kFanGrain - 1) / kFanGrain));
+}
+
+void Passes::measure() {
+    Stopwatch watch(report_.measuring_s);
+    fans_.resize(std::max(fans_.size(), chosen_.size()));
+    parallel_ranges(chosen_.size(), kFanGrain, [&](size_t begin, size_t end) {
+        MapChanges& changes = changes_[begin / kFanGrain];
+        changes.splices.clear(), changes.added.clear();
+        for (size_t i = begin; i < end; ++i) {
+            prepare(chosen_[i], fans_[i]);
+            Chosen& chosen = chosen_[i];
+            chosen.measured = measure_collapse(map_, mesh_, fans_[i].fan, chosen.fan, changes);
+            uint32_t place = map_.placement[chosen.gone].place;
+            chosen.worst_m =
+                std::max(chosen.measured.error_m, attribute_deviation_m(mesh_, fans_[i].fan, fans_[i].turned, place));
+        }
+    });
+}
+
+void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const {
+    const Fan& fan = prepared.fan;
+    float error_m = float(chosen.measured.error_m);
+    if (double(error_m) < chosen.measured.error_m) error_m = std::nextafter(error_m, std::numeric_limits<float>::infinity());
+    log.gone.push_back(chosen.gone);
+    log.kept.push_back(chosen.kept);
+    log.error_m.push_back(error_m);
+    for (uint32_t i = 0; i < fan.count; ++i) {
+        bool stays = i >= fan.first && i <= fan.last;
+        log.turns.push_back({fan.corner[i], mesh_.vertex[fan.corner[i]], stays ? prepared.turned[i] : kNone});
+    }
+    log.turn_begin.push_back(uint32_t(log.turns.size()));
+}
+
+void Passes::decide(CollapseLog& log) {
+    Stopwatch watch(report_.selection_s);
+    size_t made_before = log.gone.size();
+    double least_waiting_m = kForbidden_m;
+    for (size_t i = 0; i < chosen_.size(); ++i) {
+        Chosen& chosen = chosen_[i];
+        Candidate& candidate = candidates_[chosen.gone];
+        chosen.is_made = chosen.measured.faces_its_source && chosen.worst_m <= kWorst * limit_m_;
+        if (!chosen.measured.faces_its_source) {
+            candidate = {kForbidden_m, kNone};
+            ++report_.refused_count;
+        } else if (!chosen.is_made) {
+            candidate.cost_m = chosen.worst_m / kWorst * kFloatAllowance;
+            least_waiting_m = std::min(least_waiting_m, candidate.cost_m);
+            ++report_.postponed_count;
+        } else {
+            record(chosen, fans_[i], log);
+            face_count_ -= fans_[i].fan.count - (fans_[i].fan.last + 1 - fans_[i].fan.first);
+        }
+    }
+    // A pass in which all have to wait lets the first of them go in the next.
+    if (log.gone.size() == made_before && least_waiting_m < kForbidden_m) limit_m_ = std::max(limit_m_, least_waiting_m);
+}
+
+// Every block gets as many crossings as it adds before it starts, so that none has to ask while others work.
+void Passes::provide_crossings() {
+    for (size_t b = 0; b * kFanGrain < chosen_.size(); ++b) {
+        MapChanges& changes = changes_[b];
+        while (changes.spare.size() < changes.added.size()) {
+            changes.spare.push_back(uint32_t(map_.crossings.size()));
+            map_.crossings.emplace_back();
+        }
+    }
+}
+
+void Passes::apply() {
+    Stopwatch watch(report_.applying_s);
+    parallel_ranges(chosen_.size(), kFanGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const Chosen& chosen = chosen_[i];
+            if (!chosen.is_made) continue;
+            apply_to_map(map_, mesh_, fans_[i].fan, chosen.measured, changes_[begin / kFanGrain]);
+            apply_collapse(mesh_, fans_[i].fan, fans_[i].turned);
+            quadrics_[chosen.kept].add(quadrics_[chosen.gone]);
+            mark_around(chosen.kept);
+        }
+    });
+}
+
+void Passes::mark_around(uint32_t position) {
+    Star star;
+    if (!gather_star(mesh_, position, star)) return;
+    known_[position] = kNothing;
+    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i)
+        std::atomic_ref(known_[star.link[i]]).store(kNothing, std::memory_order_relaxed);
+}
+
+}  // namespace overlook::caveclod

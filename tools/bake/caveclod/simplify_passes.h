@@ -1,0 +1,68 @@
+// One pass after another of collapses that do not touch one another.
+#pragma once
+
+#include <vector>
+
+#include "tools/bake/caveclod/collapse_cost.h"
+#include "tools/bake/caveclod/simplify.h"
+#include "tools/bake/caveclod/surface_map.h"
+
+namespace overlook::caveclod {
+
+class Passes {
+  public:
+    // face_count: of the mesh; quadrics and map are made here.
+    Passes(WorkingMesh& mesh, SimplifyReport& report);
+
+    // Makes one pass; false when there is nothing left to collapse.
+    bool run(uint64_t least_face_count, CollapseLog& log);
+
+    uint64_t face_count() const { return face_count_; }
+
+  private:
+    struct Chosen {
+        uint32_t gone = kNone, kept = kNone, fan = kNone;
+        Measured measured;
+        double worst_m = 0;  // of the error and what attributes lose
+        bool is_made = false;
+    };
+
+    struct TurnedFan {
+        Fan fan;
+        TurnedVertices turned;
+    };
+
+    void find_queue();
+    void guess_candidates();
+    void raise_limit();
+    void check_candidates();
+    void select(uint64_t least_face_count);
+    bool claim(uint32_t gone, uint32_t kept);
+    void prepare(const Chosen& chosen, TurnedFan& prepared) const;
+    void measure();
+    void decide(CollapseLog& log);
+    void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const;
+    void provide_crossings();
+    void apply();
+    void mark_around(uint32_t position);
+
+    WorkingMesh& mesh_;
+    SimplifyReport& report_;
+    std::vector<Quadric> quadrics_;
+    SurfaceMap map_;
+    uint64_t face_count_ = 0;
+    double limit_m_ = 0;
+
+    std::vector<uint32_t> alive_;                   // positions that may still go
+    std::vector<Candidate> candidates_;             // [P]
+    std::vector<uint8_t> known_;                    // [P] the candidate must be found anew
+    std::vector<uint32_t> touched_in_, target_in_;  // [P] the last pass that changed the position's star, or collapsed into it
+    uint32_t pass_ = 0, next_fan_ = 0;
+    std::vector<float> costs_;
+    std::vector<std::pair<float, uint32_t>> queue_;
+    std::vector<Chosen> chosen_;
+    std::vector<TurnedFan> fans_;      // of chosen_
+    std::vector<MapChanges> changes_;  // one for each block of chosen_
+};
+
+}  // namespace overlook::caveclod

@@ -1,0 +1,84 @@
+#include <nlohmann/json.hpp>
+
+#include "formats/caveclod.h"
+#include "formats/numbers.h"
+#include "tools/bake/mesh_provenance.h"
+#include "tools/baked/prove_caveclod.h"
+#include "tools/baked/verbs.h"
+
+namespace overlook::baked {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kName = "baked verify";
+
+ordered_json json_of(const caveclod::Proof& proof) {
+    const caveclod::CutsProof& cuts = proof.cuts;
+    return {{"holds", proof.holds()},
+            {"broken_law", proof.broken_law},
+            {"triangles", proof.triangle_count},
+            {"lost_triangles", proof.lost_triangle_count},
+            {"foreign_triangles", proof.foreign_triangle_count},
+            {"finest_stated_m", proof.finest_stated_m},
+            {"finest_moved_m", proof.finest_moved_m},
+            {"cuts",
+             {{"count", cuts.cut_count},
+              {"broken", cuts.broken_count},
+              {"first_broken_seed", cuts.first_broken_seed},
+              {"greatest_share_of_promise_used", cuts.greatest_measured_share},
+              {"median_stated_over_measured", cuts.median_stated_over_measured},
+              {"greatest_stated_over_measured", cuts.greatest_stated_over_measured}}}};
+}
+
+void print_text(const caveclod::Proof& proof) {
+    if (!proof.broken_law.empty()) fmt::print("BROKEN: {}\n", proof.broken_law);
+    bool is_whole = proof.lost_triangle_count == 0 && proof.foreign_triangle_count == 0;
+    fmt::print("finest cut: {} triangles of the source, {} lost, {} foreign{}\n", with_commas(proof.triangle_count),
+               proof.lost_triangle_count, proof.foreign_triangle_count, is_whole ? "" : "  BROKEN");
+    fmt::print("no corner of it moved by more than {:.3g} m, {:.3g} m promised{}\n", proof.finest_moved_m, proof.finest_stated_m,
+               proof.finest_moved_m <= proof.finest_stated_m * (1 + 1e-6) ? "" : "  BROKEN");
+    const caveclod::CutsProof& cuts = proof.cuts;
+    fmt::print("{} random legal cuts: promises used to {:.1f} % at the most; promised over measured {:.2f} in the median\n",
+               cuts.cut_count, 100 * cuts.greatest_measured_share, cuts.median_stated_over_measured);
+    if (cuts.broken_count > 0)
+        fmt::print("BROKEN: {} cuts are farther from the source than promised, first that of seed {}\n", cuts.broken_count,
+                   cuts.first_broken_seed);
+    fmt::print("{}\n", proof.holds() ? "every promise holds" : "a promise is broken");
+}
+
+// The source must be the very file that was baked; another is no proof of anything.
+Result<void> check_source(const container::Provenance& provenance, const mesh::MeshReport& source, const VerifyArgs& args) {
+    for (const container::InputIdentity& input : provenance.inputs)
+        if (input.hash == source.source_hash) return {};
+    std::string name = provenance.inputs.empty() ? "nothing" : provenance.inputs[0].name;
+    return bad_input("{}: is not what {} was baked from: that was {} with other bytes", args.source, args.file, name);
+}
+
+}  // namespace
+
+int verify_mesh(const VerifyArgs& args, const container::Reader& file, const command::Common& common) {
+    auto hierarchy = caveclod::read(file);
+    if (!hierarchy) return command::fail(kName, hierarchy.error());
+    auto provenance = file.provenance();
+    if (!provenance) return command::fail(kName, provenance.error());
+    auto choices = mesh::choices_from_words(*provenance);
+    if (!choices) return command::fail(kName, Error{choices.error().exit, args.file + ": " + choices.error().message});
+    auto source = mesh::open_mesh(args.source, choices->input);
+    if (!source) return command::fail(kName, source.error());
+    if (auto same = check_source(*provenance, source->report, args); !same) return command::fail(kName, same.error());
+
+    command::Progress progress(common, "proving");
+    caveclod::ProofOptions options;
+    options.cut_count = args.cuts;
+    options.seed = common.seed;
+    caveclod::Proof proof =
+        caveclod::prove(*hierarchy, source->mesh, options, [&](double done) { progress.set(done); });
+    if (common.json)
+        fmt::print("{}\n", json_of(proof).dump(2));
+    else
+        print_text(proof);
+    return int(proof.holds() ? Exit::done : Exit::answer_is_no);
+}
+
+}  // namespace overlook::baked
