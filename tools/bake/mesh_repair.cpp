@@ -19,29 +19,6 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
     return i;
 }
 
-void count_pieces(const Mesh& mesh, MeshReport& report) {
-    const EdgeGroups groups = group_edges(mesh.faces, mesh.positions_m.size(), {});
-    std::vector<uint32_t> parent(mesh.faces.size());
-    for (uint32_t f = 0; f < parent.size(); ++f) parent[f] = f;
-    for (size_t i = 0; i < groups.size(); ++i) {
-        const auto group = groups.group(i);
-        if (group.size() != 2) continue;
-        const uint32_t a = root_of(parent, group[0] / 3), b = root_of(parent, group[1] / 3);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
-    std::vector<uint8_t> has_border(mesh.faces.size(), 0);
-    for (size_t i = 0; i < groups.size(); ++i) {
-        if (groups.group(i).size() != 1) continue;
-        has_border[root_of(parent, groups.group(i)[0] / 3)] = 1;
-        ++report.border_edge_count;
-    }
-    for (uint32_t f = 0; f < parent.size(); ++f) {
-        if (parent[f] != f) continue;
-        ++report.component_count;
-        report.closed_component_count += has_border[f] == 0;
-    }
-}
-
 std::string fault_of_indices(const Mesh& mesh) {
     const auto is_sized = [&](const std::vector<Corners>& corners) {
         return corners.empty() || corners.size() == mesh.faces.size();
@@ -119,10 +96,8 @@ std::string fault_of_fans(const Mesh& mesh) {
 void repair(Mesh& mesh, MeshReport& report) {
     const std::vector<uint32_t> other_side = drop_bad_faces(mesh, report);
     report.unused_position_count += drop_unused_positions(mesh);
-    const std::vector<uint8_t> layer = orient(mesh, other_side, report);
-    cut(mesh, layer, report);
+    cut(mesh, orient(mesh, other_side, report), report);
 
-    count_pieces(mesh, report);
     report.face_count = mesh.faces.size();
     report.position_count = mesh.positions_m.size();
     std::sort(report.dropped.begin(), report.dropped.end(),

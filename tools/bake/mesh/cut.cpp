@@ -18,15 +18,20 @@ constexpr double kSameSurfaceBonus = 0.5;
 class Cutter {
   public:
     Cutter(Mesh& mesh, std::span<const uint8_t> layer, MeshReport& report)
-        : mesh_(mesh), layer_(layer), report_(report), faces_(mesh.faces), pair_(3 * mesh.faces.size(), kNone) {}
+        : mesh_(mesh),
+          layer_(layer),
+          report_(report),
+          faces_(mesh.faces),
+          pair_(3 * mesh.faces.size(), kNone),
+          is_in_odd_group_(3 * mesh.faces.size(), 0) {}
 
-    void run() {
-        const EdgeGroups groups = group_edges(faces_, mesh_.positions_m.size(), layer_);
+    void run(const EdgeGroups& groups) {
         for (size_t i = 0; i < groups.size(); ++i) join(groups.group(i));
         do {
             split_positions();
         } while (take_apart_what_is_joined_wrongly());
-        count(groups);
+        count_cuts();
+        count_pieces();
         apply();
     }
 
@@ -38,20 +43,15 @@ class Cutter {
         pair_[h] = g;
         pair_[g] = h;
     }
-    void unpair(uint32_t h) {
-        if (pair_[h] == kNone) return;
-        pair_[pair_[h]] = kNone;
-        pair_[h] = kNone;
-    }
-
     // Pairs the halfedges of one edge.
     void join(std::span<const uint32_t> group) {
-        if (group.size() == 2) {
-            if (are_opposite(group[0], group[1])) pair(group[0], group[1]);
-        } else if (group.size() > 2) {
-            if (layer_[group[0] / 3] == 0) ++report_.complex_edge_count;
-            group.size() <= kMostCompared ? join_flattest(group) : join_in_order(group);
-        }
+        if (group.size() == 1) return;
+        if (group.size() == 2 && are_opposite(group[0], group[1])) return pair(group[0], group[1]);
+        odd_groups_.emplace_back(group.begin(), group.end());
+        for (const uint32_t h : group) is_in_odd_group_[h] = 1;
+        if (group.size() == 2) return;
+        if (layer_[group[0] / 3] == 0) ++report_.complex_edge_count;
+        group.size() <= kMostCompared ? join_flattest(group) : join_in_order(group);
     }
 
     glm::dvec3 unit_normal(uint32_t h) const {
@@ -124,17 +124,26 @@ class Cutter {
     }
 
     // Edges that are cut in the middle of a sheet have the same ends on both sides still: all but the first pair (or single
-    // halfedge) of such an edge get a start of their own. False if there is none. Each call that finds one undoes a pair, so it
-    // ends: a corner without pairs has a position of its own.
+    // halfedge) of such an edge get a start of their own. Only halfedges that had the same ends before can have them now. False
+    // if there is none. Each call that finds one undoes a pair, so it ends: a corner without pairs has a position of its own.
     bool take_apart_what_is_joined_wrongly() {
-        const EdgeGroups groups = group_edges(split_, origin_.size(), layer_);
+        const auto ends = [&](uint32_t h) {
+            const uint64_t a = start_of(split_, h), b = end_of(split_, h);
+            return std::min(a, b) << 32 | std::max(a, b);
+        };
+        const auto is_before = [&](uint32_t h, uint32_t g) { return ends(h) != ends(g) ? ends(h) < ends(g) : h < g; };
         bool has_found = false;
-        for (size_t i = 0; i < groups.size(); ++i) {
-            const auto group = groups.group(i);
-            if (group.size() == 1 || (group.size() == 2 && pair_[group[0]] == group[1])) continue;
-            has_found = true;
-            for (const uint32_t h : group.subspan(1))
-                if (pair_[h] == kNone || pair_[h] > h) detach(h);
+        for (std::vector<uint32_t>& group : odd_groups_) {
+            std::sort(group.begin(), group.end(), is_before);
+            for (size_t first = 0, i = 1; i < group.size(); ++i) {
+                const uint32_t h = group[i];
+                if (ends(h) != ends(group[first])) {
+                    first = i;
+                } else if (pair_[h] == kNone || (pair_[h] != group[first] && pair_[h] > h)) {
+                    has_found = true;
+                    detach(h);
+                }
+            }
         }
         return has_found;
     }
@@ -144,14 +153,41 @@ class Cutter {
         unpair(previous_halfedge(h));
         if (pair_[h] != kNone) unpair(next_halfedge(pair_[h]));
     }
+    // Pairs of odd groups are counted with their group.
+    void unpair(uint32_t h) {
+        const uint32_t g = pair_[h];
+        if (g == kNone) return;
+        pair_[h] = pair_[g] = kNone;
+        if (!is_in_odd_group_[h]) ++detached_count_;
+    }
 
-    void count(const EdgeGroups& groups) {
-        for (size_t i = 0; i < groups.size(); ++i) {
+    void count_cuts() {
+        for (const std::vector<uint32_t>& group : odd_groups_) {
             size_t pieces = 0;
-            for (const uint32_t h : groups.group(i)) pieces += pair_[h] == kNone || pair_[h] > h;
+            for (const uint32_t h : group) pieces += pair_[h] == kNone || pair_[h] > h;
             report_.cut_edge_count += pieces - 1;
         }
+        report_.cut_edge_count += detached_count_;
         report_.split_position_count += origin_.size() - mesh_.positions_m.size();
+    }
+
+    // Sets of faces joined over pairs.
+    void count_pieces() {
+        parent_.resize(faces_.size());
+        for (uint32_t f = 0; f < parent_.size(); ++f) parent_[f] = f;
+        for (uint32_t h = 0; h < pair_.size(); ++h)
+            if (pair_[h] != kNone && h < pair_[h]) unite(h / 3, pair_[h] / 3);
+        std::vector<uint8_t> has_border(faces_.size(), 0);
+        for (uint32_t h = 0; h < pair_.size(); ++h) {
+            if (pair_[h] != kNone) continue;
+            has_border[root(h / 3)] = 1;
+            ++report_.border_edge_count;
+        }
+        for (uint32_t f = 0; f < parent_.size(); ++f) {
+            if (parent_[f] != f) continue;
+            ++report_.component_count;
+            report_.closed_component_count += has_border[f] == 0;
+        }
     }
 
     void apply() {
@@ -183,17 +219,20 @@ class Cutter {
     Mesh& mesh_;
     std::span<const uint8_t> layer_;
     MeshReport& report_;
-    std::span<const Corners> faces_;  // as they were before splitting
-    std::vector<uint32_t> pair_;      // [3F] the halfedge that this one is joined to, or kNone
-    std::vector<uint32_t> parent_;    // [3F] sets of corners
-    std::vector<Corners> split_;      // faces after splitting
-    std::vector<uint32_t> origin_;    // [positions after splitting] the position that each was
+    std::span<const Corners> faces_;                 // as they were before splitting
+    std::vector<uint32_t> pair_;                     // [3F] the halfedge that this one is joined to, or kNone
+    std::vector<uint8_t> is_in_odd_group_;           // [3F]
+    std::vector<std::vector<uint32_t>> odd_groups_;  // halfedges of edges that are no pair of opposite ones, nor a border
+    uint64_t detached_count_ = 0;                    // edges cut beside those
+    std::vector<uint32_t> parent_;                   // [3F] sets of corners
+    std::vector<Corners> split_;                     // faces after splitting
+    std::vector<uint32_t> origin_;                   // [positions after splitting] the position that each was
 };
 
 }  // namespace
 
-void cut(Mesh& mesh, std::span<const uint8_t> layer, MeshReport& report) {
-    Cutter(mesh, layer, report).run();
+void cut(Mesh& mesh, const Orientation& orientation, MeshReport& report) {
+    Cutter(mesh, orientation.layer, report).run(orientation.edges);
 }
 
 }  // namespace overlook::mesh

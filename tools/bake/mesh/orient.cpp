@@ -57,6 +57,7 @@ class Orienter {
             if (turn == kUnknown) turn = 0;
         return turns_;
     }
+    EdgeGroups take_edges() { return std::move(groups_); }
 
     // Counts the edges of two faces of layer 0 that do not agree after turning.
     void count(MeshReport& report) const {
@@ -131,16 +132,20 @@ class Orienter {
 
 }  // namespace
 
-std::vector<uint8_t> orient(Mesh& mesh, std::span<const uint32_t> other_side, MeshReport& report) {
-    std::vector<uint8_t> layer(mesh.faces.size(), 0);
+Orientation orient(Mesh& mesh, std::span<const uint32_t> other_side, MeshReport& report) {
+    Orientation result;
+    std::vector<uint8_t>& layer = result.layer;
+    layer.assign(mesh.faces.size(), 0);
     for (uint32_t f = 0; f < layer.size(); ++f)
         if (other_side[f] != kNone && other_side[f] < f) layer[f] = 1, ++report.back_side_count;
 
     Orienter orienter(mesh, layer);
     const std::vector<uint8_t> turns = orienter.decide();
     orienter.count(report);
+    bool has_turned = false;
     for (uint32_t f = 0; f < turns.size(); ++f) {
         if (!turns[f]) continue;
+        has_turned = true;
         if (other_side[f] != kNone) {
             layer[f] = 1, layer[other_side[f]] = 0;
         } else {
@@ -148,7 +153,8 @@ std::vector<uint8_t> orient(Mesh& mesh, std::span<const uint32_t> other_side, Me
             ++report.flipped_face_count;
         }
     }
-    return layer;
+    result.edges = has_turned ? group_edges(mesh.faces, mesh.positions_m.size(), layer) : orienter.take_edges();
+    return result;
 }
 
 }  // namespace overlook::mesh
