@@ -2,6 +2,7 @@
 
 #include "tools/bake/images.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -264,6 +265,21 @@ Result<NumberRaster> read_number_raster(const std::string& path, const ImageWind
 
 Result<ImageRgb8> read_image_rgb8(const std::string& path) {
     return guarded(path, [&] { return read_rgb8(path); });
+}
+
+Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+    ImageSpec spec(int(image.width), int(image.height), 3, TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    bool is_written = output && output->set_ioproxy(&memory) && output->open("picture.png", spec) &&
+                      output->write_image(TypeDesc::UINT8, image.pixels.data()) && output->close();
+    if (!is_written)
+        return cannot_write("a picture of {} x {} pixels cannot be written as PNG: {}", image.width, image.height,
+                            gist(output ? output->geterror() : OIIO::geterror()));
+    std::span<const std::byte> written = std::as_bytes(std::span(bytes));
+    return std::vector<std::byte>(written.begin(), written.end());
 }
 
 }  // namespace overlook

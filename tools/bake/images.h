@@ -1,6 +1,7 @@
-// Pictures and rasters of numbers in, through OpenImageIO (whose only source file in the bakers is images.cpp).
+// Pictures and rasters of numbers in, and pictures out, through OpenImageIO (whose only source file in the bakers is images.cpp).
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,9 @@ Result<NumberRaster> read_number_raster(const std::string& path, const ImageWind
 // Any picture that OpenImageIO reads, as 8-bit RGB. Grey is spread to three channels, alpha is dropped, 16 bits are
 // rounded to 8.
 Result<ImageRgb8> read_image_rgb8(const std::string& path);
+
+// A picture as a PNG file's bytes: 8-bit RGB, sRGB. width and height >= 1. Same picture, same bytes: no date, no program's name.
+// Fails with Exit::cannot_write: "a picture of 512 x 512 pixels cannot be written as PNG: ..." with the library's reason.
+Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image);
 
 }  // namespace overlook

@@ -5,6 +5,7 @@
 #include "tools/make_sample/sample_dem.h"
 #include "tools/make_sample/sample_lod_sprite.h"
 #include "tools/make_sample/sample_slopes.h"
+#include "tools/make_sample/sample_terrains.h"
 
 namespace {
 
@@ -50,6 +51,31 @@ int make_slopes(const std::string& folder, const command::Common& common) {
     return int(Exit::done);
 }
 
+int make_mesh(const std::string& name, uint64_t seed, const std::string& source, const std::string& folder,
+              const command::Common& common) {
+    Result<sample::MeshSample> made = name == sample::kThreeLakes.name ? sample::three_lakes(seed)
+                                      : name == sample::kCliff.name    ? sample::cliff(seed)
+                                                                       : sample::canyon(seed, source);
+    if (!made) return command::fail("make-sample " + name, made.error());
+    Result<sample::MeshSampleReport> report = sample::write_mesh_sample(*made, folder);
+    if (!report) return command::fail("make-sample " + name, report.error());
+
+    for (const std::string& file : report->files) command::note(common, "wrote " + file);
+    command::detail(common, fmt::format("{} positions, {} triangles, {} surface groups in {} ids, index array {:.1f} % in use",
+                                        report->position_count, report->face_count, report->group_count, report->packed_count,
+                                        100 * report->dense_population));
+    if (common.json) {
+        nlohmann::ordered_json json = {{"files", report->files},
+                                       {"positions", report->position_count},
+                                       {"triangles", report->face_count},
+                                       {"surface_groups", report->group_count},
+                                       {"packed_ids", report->packed_count},
+                                       {"dense_population", report->dense_population}};
+        fmt::print("{}\n", json.dump(2));
+    }
+    return int(Exit::done);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -78,8 +104,25 @@ int main(int argc, char** argv) {
     slopes->add_option("-o,--output", folder, "Folder to write into")->required();
     command::add_common(*slopes, common);
 
+    const std::string writes = "mesh (OBJ), textures, recipe.toml, scene.json, flight-a.json to flight-d.json";
+    std::vector<CLI::App*> terrains;
+    std::string source;
+    for (const auto& [name, what] : {std::pair(sample::kThreeLakes.name, "80,000 triangles, nine textures: "),
+                                     std::pair(sample::kCliff.name, "107,184 triangles, normals that break at its rim: "),
+                                     std::pair(sample::kCanyon.name, "126,480 triangles, one texture: ")}) {
+        CLI::App* terrain = app.add_subcommand(name, "The CAVECLOD paper's terrain of " + (what + writes));
+        terrain->add_option("-o,--output", folder, "Folder to write into")->required();
+        if (std::string(name) == sample::kCanyon.name)
+            terrain->add_option("--source", source,
+                                "Folder with elevation_1200_8bit.png and colour_1024.png of the Grand Canyon");
+        command::add_common(*terrain, common, command::Uses::seed);
+        terrains.push_back(terrain);
+    }
+
     return command::run(app, common, argc, argv, [&] {
         if (slopes->parsed()) return make_slopes(folder, common);
+        for (const CLI::App* terrain : terrains)
+            if (terrain->parsed()) return make_mesh(terrain->get_name(), common.seed, source, folder, common);
         if (lod_sprite->parsed()) {
             lod_sprite_options.seed = common.seed;
             return make_lod_sprite(lod_sprite_options, folder, common);

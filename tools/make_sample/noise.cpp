@@ -44,6 +44,22 @@ double fade(double t) {
     return t * t * t * (t * (t * 6 - 15) + 10);
 }
 
+// `fold` says which place of the pattern a place of the plane shows.
+template <class Fold>
+double noise_at(uint64_t seed, double x, double y, const Fold& fold) {
+    double column = std::floor(x), row = std::floor(y);
+    double dx = x - column, dy = y - row;
+    int64_t left = fold(int64_t(column)), right = fold(int64_t(column) + 1), above = fold(int64_t(row)),
+            below = fold(int64_t(row) + 1);
+    double sx = fade(dx), sy = fade(dy);
+
+    double top = corner(seed, left, above, dx, dy);
+    top += sx * (corner(seed, right, above, dx - 1, dy) - top);
+    double bottom = corner(seed, left, below, dx, dy - 1);
+    bottom += sx * (corner(seed, right, below, dx - 1, dy - 1) - bottom);
+    return top + sy * (bottom - top);
+}
+
 }  // namespace
 
 uint64_t hash_of(uint64_t seed, uint64_t a, uint64_t b) {
@@ -55,16 +71,12 @@ double unit_from_hash(uint64_t hash) {
 }
 
 double gradient_noise(uint64_t seed, double x, double y) {
-    double column = std::floor(x), row = std::floor(y);
-    double dx = x - column, dy = y - row;
-    int64_t i = int64_t(column), j = int64_t(row);
-    double sx = fade(dx), sy = fade(dy);
+    return noise_at(seed, x, y, [](int64_t i) { return i; });
+}
 
-    double top = corner(seed, i, j, dx, dy);
-    top += sx * (corner(seed, i + 1, j, dx - 1, dy) - top);
-    double bottom = corner(seed, i, j + 1, dx, dy - 1);
-    bottom += sx * (corner(seed, i + 1, j + 1, dx - 1, dy - 1) - bottom);
-    return top + sy * (bottom - top);
+double tiled_noise(uint64_t seed, double x, double y, uint32_t period) {
+    int64_t n = period;
+    return noise_at(seed, x, y, [n](int64_t i) { return (i % n + n) % n; });
 }
 
 double fractal_noise(uint64_t seed, double x, double y, int octaves) {

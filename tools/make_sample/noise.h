@@ -15,6 +15,9 @@ double unit_from_hash(uint64_t hash);
 // 2002; sixteen directions here, chosen by hash_of).
 double gradient_noise(uint64_t seed, double x, double y);
 
+// The same with a pattern that returns after `period` units, in x and in y.
+double tiled_noise(uint64_t seed, double x, double y, uint32_t period);
+
 // Sum of `octaves` of it, each twice as fine and half as high; about -1..1.
 double fractal_noise(uint64_t seed, double x, double y, int octaves);
 

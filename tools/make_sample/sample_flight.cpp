@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "runtime/view/flight.h"
+#include "tools/make_sample/flight_lift.h"
 
 namespace overlook::sample {
 namespace {
@@ -41,25 +40,9 @@ struct Map {
     }
 };
 
-// Lifts the keys round every frame that is too low, and in the end, should that not do, all of them.
 void lift(Flight& flight, const Map& map, double clearance_m) {
-    for (int round = 0; round < 200; ++round) {
-        bool is_low = false;
-        for (uint32_t frame = 0; frame < scene::frame_count(flight); ++frame) {
-            double time_s = scene::frame_time_s(flight, frame);
-            glm::dvec3 at_m = view::camera_at(flight, time_s, {}).position_m;
-            double lack_m = ground_m(map.landscape, map.cell_size_m, at_m.x, at_m.y) + clearance_m - at_m.z;
-            if (lack_m <= 0) continue;
-            is_low = true;
-            size_t after = 0;
-            while (after + 1 < flight.keys.size() && flight.keys[after].time_s <= time_s) ++after;
-            flight.keys[after].position_m[2] += std::ceil(lack_m);
-            if (after > 0) flight.keys[after - 1].position_m[2] += std::ceil(lack_m);
-        }
-        if (!is_low) return;
-    }
-    double lack_m = clearance_m - least_clearance_m(flight, map.landscape, map.cell_size_m);
-    for (scene::Key& key : flight.keys) key.position_m[2] += std::max(0.0, std::ceil(lack_m));
+    sample::lift(
+        flight, [&](double x_m, double y_m) { return ground_m(map.landscape, map.cell_size_m, x_m, y_m); }, clearance_m);
 }
 
 // Level and straight: from one place towards a heading at a speed.
@@ -166,12 +149,7 @@ double ground_m(const Landscape& landscape, double cell_size_m, double x_m, doub
 }
 
 double least_clearance_m(const Flight& flight, const Landscape& landscape, double cell_size_m) {
-    double least_m = std::numeric_limits<double>::infinity();
-    for (uint32_t frame = 0; frame < scene::frame_count(flight); ++frame) {
-        glm::dvec3 at_m = view::camera_at(flight, scene::frame_time_s(flight, frame), {}).position_m;
-        least_m = std::min(least_m, at_m.z - ground_m(landscape, cell_size_m, at_m.x, at_m.y));
-    }
-    return least_m;
+    return least_clearance_m(flight, [&](double x_m, double y_m) { return ground_m(landscape, cell_size_m, x_m, y_m); });
 }
 
 Flight overview_flight(const Landscape& landscape, double cell_size_m) {
