@@ -114,7 +114,8 @@ void refine_in_turn(benchmark::State& state, uint32_t side) {
     caveclod::Refinement shared(*on.mesh);
     std::vector<caveclod::FrameReport> reports(4);
     repeat_laps(state, [&](int frame) {
-        caveclod::refine_in_turn(shared, four_cameras(on, frame), settings(), [](size_t) {}, reports);
+        caveclod::refine_in_turn(
+            shared, four_cameras(on, frame), settings(), [](size_t) {}, reports);
         return work_of(reports);
     });
 }
