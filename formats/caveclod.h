@@ -3,9 +3,9 @@
 //
 // Collapsing u into t takes position u away: the faces round the edge go, the other faces of u's star turn their corner from u to
 // t, and t stays where it is (no position ever moves: Hoppe 1998). Undone it is a *split*: of its owner t, creating position u.
-// A split is legal when every face that it turns is there in exactly the version that the collapse left; as the versions of a face
-// follow one another, that is a set of coarser splits which it *needs*, and a cut is any set of splits that holds, with each, what
-// it needs. So one bit for each split and camera says all that is drawn.
+// A split is legal when every face that it turns is there in exactly the version that the collapse left; as the versions of a
+// face follow one another, that is a set of coarser splits which it *needs*, and a cut is any set of splits that holds, with
+// each, what it needs. So one bit for each split and camera says all that is drawn.
 //
 // Based on: H. Hoppe, View-Dependent Refinement of Progressive Meshes, 1997; L. De Floriani, P. Magillo, E. Puppo, Building and
 // Traversing a Surface at Variable Resolution, 1997 (any cut that is closed under needs); B. Kram, C. Shaw, Multiple Camera
@@ -59,13 +59,13 @@ struct Attributes {
 
 // What all faces of one surface identifier look like.
 struct Surface {
-    std::string name;                                // UTF-8
+    std::string name;                                   // UTF-8
     std::array<uint8_t, 4> colour{255, 255, 255, 255};  // sRGB-encoded, alpha linear
-    std::string texture;                             // bare name, UTF-8; empty if there is none
-    std::vector<std::byte> texture_bytes;            // the image as its file stores it (PNG, JPEG), or empty
-    bool is_alpha_masked = false;                    // what is more transparent than alpha_cutoff is not drawn
-    float alpha_cutoff = 0.5f;                       // 0..1
-    bool is_two_sided = false;                       // seen from behind as well
+    std::string texture;                                // bare name, UTF-8; empty if there is none
+    std::vector<std::byte> texture_bytes;               // the image as its file stores it (PNG, JPEG), or empty
+    bool is_alpha_masked = false;                       // what is more transparent than alpha_cutoff is not drawn
+    float alpha_cutoff = 0.5f;                          // 0..1
+    bool is_two_sided = false;                          // seen from behind as well
 
     bool operator==(const Surface&) const = default;
 };
@@ -93,16 +93,16 @@ struct Hierarchy {
     // Splits, coarse to fine: what split i needs comes before it.
     std::vector<uint32_t> owner;  // [S] the position that is split; it is older than the new one
     // [S] Bounds the two-sided distance between the source and what is drawn, over all that split i touches, while i is not
-    // applied. Finite, never above that of a split which i needs. That of a whole cut is the greatest over the splits that it could
-    // apply next, and never below finest_error_m.
+    // applied. Finite, never above that of a split which i needs. That of a whole cut is the greatest over the splits that it
+    // could apply next, and never below finest_error_m.
     std::vector<float> error_m;
     // [S] All versions of all faces that i and whatever needs it, directly or not, ever touch lie within radius_m of the owner's
     // position (the finest versions are the source). By complete().
     std::vector<float> radius_m;
     // [S] Holds the normals of all those versions. By complete().
     std::vector<NormalCone> cone;
-    // Compressed rows: split i needs needs[need_begin[i] .. need_begin[i + 1]), ascending, each before i. By complete(), from what
-    // the splits touch; a baker may give others before (rows as here, or both empty), which stay.
+    // Compressed rows: split i needs needs[need_begin[i] .. need_begin[i + 1]), ascending, each before i. By complete(), from
+    // what the splits touch; a baker may give others before (rows as here, or both empty), which stay.
     std::vector<uint32_t> need_begin, needs;  // [S + 1], [..]
     std::vector<uint32_t> added_begin;        // [S + 1], from base_face_count; each split adds 0, 1 or 2
     // Compressed rows: corners (face * kCorners + corner) that go from owner[i] to the new position; ascending, no face twice,
@@ -118,8 +118,8 @@ struct Hierarchy {
     std::vector<uint16_t> group_packed;
 
     // Render vertices, those of position p in [vertex_begin[p], vertex_begin[p + 1]): at least one, at most kMostWedges.
-    std::vector<RenderVertex> vertices;   // [D]
-    std::vector<uint32_t> vertex_begin;   // [P + 1]
+    std::vector<RenderVertex> vertices;      // [D]
+    std::vector<uint32_t> vertex_begin;      // [P + 1]
     std::vector<uint16_t> birth_wedge;       // [3F] of each corner at its face's birth: offset in its position's row
     std::vector<uint16_t> moved_wedge;       // [as moved] after the split: offset in the new position's row
     std::vector<uint16_t> moved_back_wedge;  // [as moved] before it: offset in the owner's row

@@ -100,7 +100,9 @@ Added expected_faces(const MeshState& state, const Hierarchy& hierarchy, std::sp
     auto add = [&](const StarCorner& at, bool third_is_last, uint16_t new_wedge) {
         uint32_t face = at.corner / kCorners, c = at.corner % kCorners;
         uint32_t third = face * kCorners + (c + (third_is_last ? 2 : 1)) % 3;
-        added.faces[added.count++] = {state.position(third), third_is_last, hierarchy.face_group[face],
+        added.faces[added.count++] = {state.position(third),
+                                      third_is_last,
+                                      hierarchy.face_group[face],
                                       {state.wedge(at.corner), new_wedge, state.wedge(third)}};
     };
     const StarCorner &first = star[begin], &last = star[in_arc(star, begin, length - 1)];
@@ -155,8 +157,9 @@ void touched_needs(const MeshState& state, const Hierarchy& hierarchy, uint32_t 
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
     // From the finest down: what a kept one needs directly goes.
     for (size_t k = needs.size(); k-- > 1;) {
-        auto row = std::span(hierarchy.needs).subspan(hierarchy.need_begin[needs[k]],
-                                                      hierarchy.need_begin[needs[k] + 1] - hierarchy.need_begin[needs[k]]);
+        auto row =
+            std::span(hierarchy.needs)
+                .subspan(hierarchy.need_begin[needs[k]], hierarchy.need_begin[needs[k] + 1] - hierarchy.need_begin[needs[k]]);
         size_t kept = 0;
         for (size_t j = 0; j < k; ++j)
             if (!std::binary_search(row.begin(), row.end(), needs[j])) needs[kept++] = needs[j];

@@ -159,8 +159,8 @@ class Completion {
         return nullptr;
     }
 
-    // From fine to coarse: what is needed holds what needs it. Of the two spheres that do, by way of spheres and by way of boxes, the
-    // lesser.
+    // From fine to coarse: what is needed holds what needs it. Of the two spheres that do, by way of spheres and by way of boxes,
+    // the lesser.
     void saturate() {
         Hierarchy& h = hierarchy_;
         h.radius_m.resize(radius_.size());

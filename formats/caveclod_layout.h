@@ -21,9 +21,10 @@ constexpr container::Tag kSurfacesTag = container::tag("MSUR");
 
 // Offsets within MINF, in bytes.
 namespace info_at {
-constexpr size_t base_positions = 0, base_faces = 4, splits = 8, faces = 12, vertices = 16, groups = 20, surfaces = 24, blocks = 28,
-                 origin_m = 32, position_step_m = 56, uv_low = 64, uv_step = 80, position_bits = 88, uv_bits = 92, normal_bits = 96,
-                 attributes = 100, codec = 104, finest_error = 108, greatest_error = 112, reserved = 116, bytes = 128;
+constexpr size_t base_positions = 0, base_faces = 4, splits = 8, faces = 12, vertices = 16, groups = 20, surfaces = 24,
+                 blocks = 28, origin_m = 32, position_step_m = 56, uv_low = 64, uv_step = 80, position_bits = 88, uv_bits = 92,
+                 normal_bits = 96, attributes = 100, codec = 104, finest_error = 108, greatest_error = 112, reserved = 116,
+                 bytes = 128;
 }
 constexpr uint32_t kCountMax = 1u << 28;
 constexpr uint32_t kSurfacesMax = 1u << 16;

@@ -27,7 +27,8 @@ void Packer::add_vertex(const Steps& steps, const Steps& expected, Rows& rows) {
     vertices_.push_back(steps);
 }
 
-void Packer::add_vertices(uint32_t position, Rows& rows, std::span<const StarCorner> moved, std::span<const uint16_t> new_wedges) {
+void Packer::add_vertices(uint32_t position, Rows& rows, std::span<const StarCorner> moved,
+                          std::span<const uint16_t> new_wedges) {
     uint32_t begin = hierarchy_.vertex_begin[position], end = hierarchy_.vertex_begin[position + 1];
     rows[kWedgeCount].push_back(end - begin - 1);
     if (end - begin > 1)
@@ -176,7 +177,8 @@ const char* Packer::split(uint32_t i, Rows& rows) {
     std::span<const StarCorner> star = state_.star(owner);
     if (star.size() > kMostStar) return "a split whose owner has too many faces round it";
     find_moves(star, i);
-    if (moved_places_.size() != h.moved_begin[i + 1] - h.moved_begin[i]) return "a split that moves a face which is not at its owner";
+    if (moved_places_.size() != h.moved_begin[i + 1] - h.moved_begin[i])
+        return "a split that moves a face which is not at its owner";
     moved_.clear(), new_wedges_.clear();
     auto row = std::span(h.moved).subspan(h.moved_begin[i], moved_places_.size());
     for (uint32_t place : moved_places_) {

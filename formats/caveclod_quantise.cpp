@@ -92,8 +92,7 @@ void canonicalise(Hierarchy& hierarchy) {
     for (uint32_t face = 0; face < renamed.size(); ++face) renamed[face] = face;
     for (uint32_t i = 0; i < hierarchy.split_count(); ++i) {
         uint32_t begin = hierarchy.added_begin[i], end = hierarchy.added_begin[i + 1];
-        for (uint32_t face = begin; face < end; ++face)
-            turns[face] = uint8_t(turn_to_owner(hierarchy, face, hierarchy.owner[i]));
+        for (uint32_t face = begin; face < end; ++face) turns[face] = uint8_t(turn_to_owner(hierarchy, face, hierarchy.owner[i]));
         if (end - begin == 2 && hierarchy.face_positions[begin][1] == hierarchy.new_position(i) &&
             hierarchy.face_positions[begin + 1][2] == hierarchy.new_position(i)) {
             swap_faces(hierarchy, begin, begin + 1);

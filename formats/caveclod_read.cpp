@@ -79,8 +79,8 @@ Result<void> read_flags(const Reader& file, std::span<const std::byte> bytes, In
     for (size_t at = info_at::reserved; at < info_at::bytes; ++at) is_zero = is_zero && bytes[at] == std::byte(0);
     if (attributes > 7 || codec > uint32_t(Codec::draco) || std::max(info.finest_error, info.greatest_error) > kErrorCodeMax ||
         !is_zero)
-        return broken(file, 5, "attributes {}, codec {}, error codes {} and {}, or a reserved number that is not 0", attributes, codec,
-                      info.finest_error, info.greatest_error);
+        return broken(file, 5, "attributes {}, codec {}, error codes {} and {}, or a reserved number that is not 0", attributes,
+                      codec, info.finest_error, info.greatest_error);
     info.codec = Codec(codec);
     return {};
 }
@@ -112,8 +112,8 @@ Result<std::vector<Entry>> read_directory(const Reader& file, const Section& sec
                  load_le<uint32_t>(at, directory_at::stored_bytes), load_le<uint32_t>(at, directory_at::splits),
                  load_le<uint32_t>(at, directory_at::rest_error)};
         if (entry.offset != offset || entry.stored_bytes > blocks.stored_bytes - offset)
-            return broken(file, 8, "block {} is {} bytes at {}; the one before ends at {} of {}", i, entry.stored_bytes, entry.offset,
-                          offset, blocks.stored_bytes);
+            return broken(file, 8, "block {} is {} bytes at {}; the one before ends at {} of {}", i, entry.stored_bytes,
+                          entry.offset, offset, blocks.stored_bytes);
         bool is_whole = i == 0 ? entry.split_count == 0 : entry.split_count >= 1 && entry.split_count <= kBlockSplitsMax;
         if (!is_whole || load_le<uint32_t>(at, directory_at::first_split) != split_count)
             return broken(file, 7, "block {} has {} splits from {}; {} are before it", i, entry.split_count,
@@ -121,7 +121,8 @@ Result<std::vector<Entry>> read_directory(const Reader& file, const Section& sec
         offset += entry.stored_bytes, split_count += entry.split_count;
     }
     if (split_count != info.split_count) return broken(file, 7, "{} splits in all, {} stated", split_count, info.split_count);
-    if (offset != blocks.stored_bytes) return broken(file, 8, "the last block ends at {} of {} bytes", offset, blocks.stored_bytes);
+    if (offset != blocks.stored_bytes)
+        return broken(file, 8, "the last block ends at {} of {} bytes", offset, blocks.stored_bytes);
     return entries;
 }
 

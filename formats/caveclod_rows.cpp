@@ -152,12 +152,14 @@ const char* surfaces_of_bytes(std::span<const std::byte> bytes, uint32_t count, 
         uint32_t flags = 0, cutoff = 0;
         if (!take_text(scan, surface.name) || !take_text(scan, surface.texture))
             return "has a name that is too long, cut short or not printable";
-        if (!scan.sized(picture) || !scan.take(4, colour) || !scan.u32(flags) || !scan.u32(cutoff)) return "ends within a surface";
+        if (!scan.sized(picture) || !scan.take(4, colour) || !scan.u32(flags) || !scan.u32(cutoff))
+            return "ends within a surface";
         surface.texture_bytes.assign(picture.begin(), picture.end());
         for (size_t k = 0; k < 4; ++k) surface.colour[k] = uint8_t(colour[k]);
         surface.is_alpha_masked = (flags & 1) != 0, surface.is_two_sided = (flags & 2) != 0;
         surface.alpha_cutoff = std::bit_cast<float>(cutoff);
-        if (flags > 3 || !(surface.alpha_cutoff >= 0 && surface.alpha_cutoff <= 1)) return "has unknown flags or an alpha beyond 0..1";
+        if (flags > 3 || !(surface.alpha_cutoff >= 0 && surface.alpha_cutoff <= 1))
+            return "has unknown flags or an alpha beyond 0..1";
         surfaces.push_back(std::move(surface));
     }
     return scan.rest().empty() ? nullptr : "has bytes after its surfaces";

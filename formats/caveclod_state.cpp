@@ -49,9 +49,8 @@ void MeshState::gather(uint32_t position) {
     by_next_.resize(found_.size());
     std::iota(by_next_.begin(), by_next_.end(), 0u);
     by_previous_ = by_next_;
-    std::sort(by_next_.begin(), by_next_.end(), [&](uint32_t a, uint32_t b) {
-        return found_[a].next != found_[b].next ? found_[a].next < found_[b].next : a < b;
-    });
+    std::sort(by_next_.begin(), by_next_.end(),
+              [&](uint32_t a, uint32_t b) { return found_[a].next != found_[b].next ? found_[a].next < found_[b].next : a < b; });
     std::sort(by_previous_.begin(), by_previous_.end(),
               [&](uint32_t a, uint32_t b) { return found_[a].previous < found_[b].previous; });
 }

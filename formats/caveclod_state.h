@@ -15,7 +15,7 @@ namespace overlook::caveclod {
 struct StarCorner {
     uint32_t corner = 0;  // face * kCorners + corner
     uint32_t next = 0, previous = 0;
-    uint32_t fan = 0;                       // counted from 0 in the star
+    uint32_t fan = 0;                             // counted from 0 in the star
     bool begins_open = false, ends_open = false;  // the fan's first face has no neighbour before it; its last none after it
 };
 

@@ -98,7 +98,8 @@ Fault Unpacker::take_groups(uint32_t count) {
         uint32_t packed = 0;
         if (!take_signed(kBase, away) || !take(kBase, packed)) return kCutShort;
         uint32_t surface = last + uint32_t(away);
-        if (surface >= hierarchy_.surfaces.size() || packed > 65535) return {13, "has a group of no surface, or a packed one above 65,535"};
+        if (surface >= hierarchy_.surfaces.size() || packed > 65535)
+            return {13, "has a group of no surface, or a packed one above 65,535"};
         hierarchy_.group_surface.push_back(surface);
         hierarchy_.group_packed.push_back(uint16_t(packed));
         last = surface;
@@ -163,7 +164,8 @@ Fault Unpacker::take_moves(std::span<const StarCorner> star, uint32_t flags, uin
         for (uint32_t k = 0; k < length; ++k) {
             uint32_t place = 0;
             if (!take(kRare, place)) return kCutShort;
-            if (place >= star.size() || (k > 0 && place <= last)) return {14, "has a split that moves a face which is not at its owner"};
+            if (place >= star.size() || (k > 0 && place <= last))
+                return {14, "has a split that moves a face which is not at its owner"};
             moved_.push_back(star[place]);
             last = place;
         }
@@ -286,8 +288,7 @@ Fault Unpacker::take_split() {
     if (Fault fault = take_moves(star, flags, begin)) return fault;
     if (Fault fault = take_position(expected_position(positions_, owner, moved_))) return fault;
     if (Fault fault = take_row(moved_)) return fault;
-    if ((flags & kOtherMoves) == 0)
-        expected = expected_faces(state_, h, star, begin, uint32_t(moved_.size()), new_wedges_);
+    if ((flags & kOtherMoves) == 0) expected = expected_faces(state_, h, star, begin, uint32_t(moved_.size()), new_wedges_);
     if (Fault fault = take_added(flags, owner, created, expected, added)) return fault;
     if (Fault fault = take_needs(flags, owner, added)) return fault;
     if (Fault fault = take_error()) return fault;

@@ -50,8 +50,8 @@ std::vector<std::byte> info_bytes(const Hierarchy& h, uint32_t block_count, Code
     store_f64(bytes, info_at::uv_step, h.grid.uv_step);
     put(info_at::position_bits, h.grid.position_bits), put(info_at::uv_bits, h.grid.uv_bits);
     put(info_at::normal_bits, h.grid.normal_bits), put(info_at::codec, size_t(codec));
-    put(info_at::attributes, (h.attributes.normals ? kHasNormals : 0) | (h.attributes.uvs ? kHasUvs : 0) |
-                                 (h.attributes.colours ? kHasColours : 0));
+    put(info_at::attributes,
+        (h.attributes.normals ? kHasNormals : 0) | (h.attributes.uvs ? kHasUvs : 0) | (h.attributes.colours ? kHasColours : 0));
     float greatest = 0;
     for (float error_m : h.error_m) greatest = std::max(greatest, error_m);
     put(info_at::finest_error, code_of_error(h.finest_error_m)), put(info_at::greatest_error, code_of_error(greatest));

@@ -3,6 +3,7 @@
 #include <draco/compression/entropy/symbol_encoding.h>
 #include <draco/core/bit_utils.h>
 
+#include <algorithm>
 #include <cassert>
 
 #include "formats/value_codecs.h"
@@ -11,6 +12,8 @@ namespace overlook {
 
 std::optional<std::vector<std::byte>> draco_packed(std::span<const uint32_t> values) {
     assert(!values.empty() && values.size() <= kMostChunkValues);
+    // Draco counts numbers by their bits in a table that has no room for 32 of them.
+    if (std::any_of(values.begin(), values.end(), [](uint32_t value) { return value >> 31 != 0; })) return std::nullopt;
     draco::EncoderBuffer buffer;
     if (!draco::EncodeSymbols(values.data(), int(values.size()), 1, nullptr, &buffer)) return std::nullopt;
     auto bytes = std::as_bytes(std::span(buffer.data(), buffer.size()));

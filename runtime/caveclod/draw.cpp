@@ -119,8 +119,8 @@ Result<void> Drawing::make_looks(const Mesh& mesh) {
             if (!decoded)
                 faults_.push_back(decoded.error().message);
             else if (std::max(decoded->width, decoded->height) > uint32_t(most_px))
-                return impossible("{}: the picture of {} x {} pixels is too large for this renderer ({} at most)", surface.texture,
-                                  decoded->width, decoded->height, most_px);
+                return impossible("{}: the picture of {} x {} pixels is too large for this renderer ({} at most)",
+                                  surface.texture, decoded->width, decoded->height, most_px);
             else
                 picture = std::move(*decoded);
         }
@@ -138,8 +138,8 @@ Result<void> Drawing::make_looks(const Mesh& mesh) {
 Result<void> Drawing::make_programs() {
     auto shaded = program({"mesh", "", shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
-    auto background = gl::Program::make("background", {{GL_VERTEX_SHADER, shaders::kBackgroundVertex},
-                                                       {GL_FRAGMENT_SHADER, shaders::kBackgroundFragment}});
+    auto background = gl::Program::make(
+        "background", {{GL_VERTEX_SHADER, shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, shaders::kBackgroundFragment}});
     if (!background) return tl::unexpected(background.error());
     shaded_ = std::move(*shaded);
     background_ = std::move(*background);

@@ -46,8 +46,8 @@ class CameraBuffers {
     uint64_t uploaded_bytes_ = 0;
 };
 
-// The mesh on the graphics card, once for all cameras: 16 bytes a vertex and the surfaces' pictures. It must outlive neither the mesh
-// nor the hierarchy. Positions are drawn relative to the camera, whole steps subtracted as integers and the rest in double.
+// The mesh on the graphics card, once for all cameras: 16 bytes a vertex and the surfaces' pictures. It must outlive neither the
+// mesh nor the hierarchy. Positions are drawn relative to the camera, whole steps subtracted as integers and the rest in double.
 class Drawing {
   public:
     // Fails with Exit::impossible if the mesh is too large for the renderer. Pictures that cannot be read (only PNG can) are left
@@ -56,7 +56,8 @@ class Drawing {
     const std::vector<std::string>& faults() const { return faults_; }
 
     // Draws a plain background and the faces into `target` and resolves it.
-    void draw(const gl::Target& target, const CameraBuffers& buffers, const view::Camera& camera, const DrawOptions& options) const;
+    void draw(const gl::Target& target, const CameraBuffers& buffers, const view::Camera& camera,
+              const DrawOptions& options) const;
 
     // What a method colours by itself, into whatever is bound.
     Result<gl::Program> program(const gl::SurfaceShader& shader) const;

@@ -58,7 +58,7 @@ Vertex vertex_at(uint id) {
     if (normal.z < 0.0) normal.xy = (1.0 - abs(at.yx)) * vec2(at.x < 0.0 ? -1.0 : 1.0, at.y < 0.0 ? -1.0 : 1.0);
     Vertex vertex;
     vertex.relative_m = (vec3(steps - camera_steps) - camera_rest) * step_m;
-    vertex.normal = normal;
+    vertex.normal = normalize(normal);
     vertex.uv = uv_low + vec2(words.w & 0xffffu, words.w >> 16) * uv_step;
     vertex.tint = has_colours ? linear_of(texelFetch(colours, int(id)).r) : vec4(1.0);
     return vertex;
@@ -74,7 +74,7 @@ void main() {
         Vertex to = vertex_at(glide.x), from = vertex_at(glide.y);
         float share = uintBitsToFloat(glide.z);
         vertex.relative_m = mix(from.relative_m, to.relative_m, share);
-        vertex.normal = mix(normalize(from.normal), normalize(to.normal), share);
+        vertex.normal = mix(from.normal, to.normal, share);
         vertex.uv = mix(from.uv, to.uv, share);
         vertex.tint = mix(from.tint, to.tint, share);
     }

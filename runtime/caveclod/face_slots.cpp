@@ -16,7 +16,10 @@ bool is_full(uint64_t count, size_t size) {
 }  // namespace
 
 FaceSlots::FaceSlots(uint32_t surface_count, uint32_t slot_bits)
-    : slot_bits_(slot_bits), slot_mask_(uint32_t((uint64_t(1) << slot_bits) - 1)), surfaces_(surface_count), table_(kLeastTable, kNone) {}
+    : slot_bits_(slot_bits),
+      slot_mask_(uint32_t((uint64_t(1) << slot_bits) - 1)),
+      surfaces_(surface_count),
+      table_(kLeastTable, kNone) {}
 
 size_t FaceSlots::find(uint32_t face) const {
     for (size_t place = home(face);; place = place + 1 == table_.size() ? 0 : place + 1) {

@@ -47,8 +47,9 @@ struct SplitRecord {
 
 class Mesh {
   public:
-    // The hierarchy may go afterwards. Fails with Exit::impossible if it has too many faces of one surface and too many surfaces
-    // for 32-bit handles: "a mesh of 70,000 surfaces and 200,000 faces of one has too many for one camera's handles".
+    // The hierarchy may go afterwards. Fails with Exit::impossible if its splits do not fit into 32-bit places ("a mesh of
+    // 200,000,000 splits needs more than 4 GiB of records"), or if it has too many faces of one surface and too many surfaces for
+    // 32-bit handles: "a mesh of 70,000 surfaces and 200,000 faces of one has too many for one camera's handles".
     static Result<Mesh> make(const Hierarchy& hierarchy);
 
     uint32_t split_count() const { return uint32_t(bounds_.size()); }
@@ -112,13 +113,13 @@ class Mesh {
     double position_step_m_ = 1;
     Grid grid_;
     Attributes attributes_;
-    std::vector<Bounds> bounds_;         // [S]
-    std::vector<uint64_t> glides_;       // [S / 64]
+    std::vector<Bounds> bounds_;          // [S]
+    std::vector<uint64_t> glides_;        // [S / 64]
     std::vector<uint32_t> record_begin_;  // [S]
     std::vector<uint8_t> records_;
     std::vector<uint32_t> vertex_blocks_;  // a position's first vertex: that of every kRowBlock-th position, and from there
     std::vector<uint16_t> vertex_rows_;
-    std::vector<uint32_t> wide_rows_;  // instead, where 16 bits are too few
+    std::vector<uint32_t> wide_rows_;     // instead, where 16 bits are too few
     std::vector<PackedVertex> vertices_;  // [D]
     std::vector<std::array<uint8_t, 4>> colours_;
     std::vector<std::array<uint32_t, 3>> base_faces_;

@@ -35,7 +35,8 @@ void CameraRefinement::remove_node(uint32_t node) {
     --active_node_count_;
 }
 
-void CameraRefinement::add_polygon(uint32_t polygon, const std::array<uint32_t, 3>& nodes, const std::array<uint32_t, 3>& neighbours) {
+void CameraRefinement::add_polygon(uint32_t polygon, const std::array<uint32_t, 3>& nodes,
+                                   const std::array<uint32_t, 3>& neighbours) {
     uint32_t place = uint32_t(polygons_.size());
     if (free_polygons_.empty())
         polygons_.emplace_back();

@@ -1,9 +1,10 @@
 // CAVECLOD as printed: nodes, active lists, arrays of pointers, and Hoppe's legality, over the same hierarchy.
 //
-// B. Kram, C. Shaw, Multiple Camera Considerations in a View-Dependent Continuous Level of Detail Algorithm, 2002, sections 3.2 and
-// 3.4 to 3.6; what it takes from there: H. Hoppe, View-Dependent Refinement of Progressive Meshes, 1997 (legality, force_vsplit, the
-// order of the traversal); D. Luebke, C. Erikson, View-Dependent Simplification of Arbitrary Polygonal Environments, 1997 (size on
-// the screen). Pointers are 32-bit handles, as the paper's machine had them, so that its figures of memory can be held beside.
+// B. Kram, C. Shaw, Multiple Camera Considerations in a View-Dependent Continuous Level of Detail Algorithm, 2002, sections 3.2
+// and 3.4 to 3.6; what it takes from there: H. Hoppe, View-Dependent Refinement of Progressive Meshes, 1997 (legality,
+// force_vsplit, the order of the traversal); D. Luebke, C. Erikson, View-Dependent Simplification of Arbitrary Polygonal
+// Environments, 1997 (size on the screen). Pointers are 32-bit handles, as the paper's machine had them, so that its figures of
+// memory can be held beside.
 #pragma once
 
 #include <array>
@@ -23,9 +24,9 @@ constexpr uint32_t kNone = ~0u;
 // 44 bytes, as equation 1 counts them.
 struct Node {
     uint32_t parent = kNone;
-    uint32_t stationary = kNone, floating = kNone;       // its children; none of a leaf
+    uint32_t stationary = kNone, floating = kNone;  // its children; none of a leaf
     uint32_t position = 0;
-    std::array<uint32_t, 2> polygons{kNone, kNone};        // left and right of the new edge, that its split adds
+    std::array<uint32_t, 2> polygons{kNone, kNone};  // left and right of the new edge, that its split adds
     // Of the left polygon across its edges from the stationary and to the floating child, then the same of the right one.
     std::array<uint32_t, 4> neighbours{kNone, kNone, kNone, kNone};
     uint32_t split = kNone;  // of the hierarchy, for its bounds
@@ -52,8 +53,8 @@ class Mesh {
     const Hierarchy& hierarchy() const { return hierarchy_; }
     // The node whose split adds a polygon; kNone for the coarsest ones.
     uint32_t creator(uint32_t polygon) const { return creator_[polygon]; }
-    // The dense array's entry of a packed surface group and a position, kNone where it is empty. Where a group has several vertices
-    // at a position the last one is all that the array can hold.
+    // The dense array's entry of a packed surface group and a position, kNone where it is empty. Where a group has several
+    // vertices at a position the last one is all that the array can hold.
     uint32_t vertex(uint16_t packed, uint32_t position) const;
     uint64_t populated_count() const { return entries_.size(); }
     uint32_t packed_count() const { return packed_count_; }
@@ -99,8 +100,8 @@ class CameraRefinement {
 
     uint64_t active_node_count() const { return active_node_count_; }
     uint64_t active_polygon_count() const { return active_polygon_count_; }
-    // By traversing the active polygons (3.5): three vertices each, by surface identifier. A corner that the index array has nothing
-    // for is counted in wrong_corner_count and takes its position's first vertex.
+    // By traversing the active polygons (3.5): three vertices each, by surface identifier. A corner that the index array has
+    // nothing for is counted in wrong_corner_count and takes its position's first vertex.
     void collect(std::vector<std::vector<uint32_t>>& by_surface, uint64_t& wrong_corner_count) const;
     // Does every edge belong to one polygon on either side, by the neighbours that the polygons know?
     bool is_consistent() const;

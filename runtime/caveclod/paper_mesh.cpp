@@ -22,7 +22,8 @@ Equation1 equation1(uint64_t n, uint64_t p, uint64_t d, uint64_t s, uint64_t e, 
 }
 
 void Mesh::enter(uint32_t face, uint32_t position, uint32_t wedge) {
-    entries_.push_back({position, hierarchy_.group_packed[hierarchy_.face_group[face]], hierarchy_.vertex_begin[position] + wedge});
+    entries_.push_back(
+        {position, hierarchy_.group_packed[hierarchy_.face_group[face]], hierarchy_.vertex_begin[position] + wedge});
 }
 
 // Of equal places the last stays.

@@ -44,11 +44,26 @@ void Refinement::evaluate(Frame& frame, uint32_t split) {
     }
 }
 
-// All that could change, in order: their bounds are read from front to back.
+// All that could change, in order: their bounds are read from front to back. Most of them show at once that they stay as they
+// are, and that none of them is the greatest error.
 void Refinement::evaluate_all(Frame& frame) {
-    for (size_t word = 0; word < open_.size(); ++word)
-        for (uint64_t left = open_[word]; left != 0; left &= left - 1)
-            evaluate(frame, uint32_t(64 * word) + uint32_t(std::countr_zero(left)));
+    const ScreenTest& test = frame.test;
+    double known_px = -1, reach = 0;
+    for (size_t word = 0; word < open_.size(); ++word) {
+        for (uint64_t left = open_[word]; left != 0; left &= left - 1) {
+            uint32_t split = uint32_t(64 * word) + uint32_t(std::countr_zero(left));
+            if (frame.report.error_px != known_px) {
+                known_px = frame.report.error_px;
+                reach = test.reach_of(std::min(known_px, test.least_split_px()));
+            }
+            bool stays = has(applied_, split) ? !frame.keeps_reserve && !has(gliding_, split) && test.is_kept(split)
+                                              : test.is_within(split, reach);
+            if (stays)
+                ++frame.report.evaluated_count;
+            else
+                evaluate(frame, split);
+        }
+    }
 }
 
 void Refinement::apply(Frame& frame, const Wish& wish) {
@@ -185,13 +200,13 @@ Refinement::Bytes Refinement::bytes() const {
     for (const Bits* bits : {&applied_, &open_, &gliding_}) bytes.fixed += bits->capacity() * sizeof(uint64_t);
     bytes.active = faces_.bytes();
     bytes.glides = glide_vertices_.capacity() * sizeof(GlideVertex) + free_glide_slots_.capacity() * sizeof(uint32_t);
-    for (const auto& [split, glide] : glides_) bytes.glides += sizeof(split) + sizeof(glide) + 2 * sizeof(void*) +
-                                                               glide.slots.capacity() * sizeof(uint32_t);
+    for (const auto& [split, glide] : glides_)
+        bytes.glides += sizeof(split) + sizeof(glide) + 2 * sizeof(void*) + glide.slots.capacity() * sizeof(uint32_t);
     return bytes;
 }
 
-void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings, double dt_s,
-                std::span<FrameReport> reports) {
+void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings,
+                double dt_s, std::span<FrameReport> reports) {
     parallel_ranges(refinements.size(), 1,
                     [&](size_t i, size_t) { reports[i] = refinements[i]->refine(cameras[i], settings, dt_s); });
 }

@@ -1,10 +1,10 @@
 // Which faces of a mesh one camera draws: a set of splits that is closed under what they need, changed a little every frame.
 //
 // Based on: H. Hoppe, View-Dependent Refinement of Progressive Meshes, 1997 (incremental refinement, amortised by a budget,
-// geomorphs); B. Kram, C. Shaw, Multiple Camera Considerations in a View-Dependent Continuous Level of Detail Algorithm, 2002 (what
-// is a camera's own); M. Duchaineau et al., ROAMing Terrain, 1997 (two queues under a budget of triangles).
-// Different here: a camera has bits of splits instead of pointers to nodes, and evaluates only splits that could change now: those
-// not applied whose needs all are, and those applied that nothing applied needs.
+// geomorphs); B. Kram, C. Shaw, Multiple Camera Considerations in a View-Dependent Continuous Level of Detail Algorithm, 2002
+// (what is a camera's own); M. Duchaineau et al., ROAMing Terrain, 1997 (two queues under a budget of triangles). Different here:
+// a camera has bits of splits instead of pointers to nodes, and evaluates only splits that could change now: those not applied
+// whose needs all are, and those applied that nothing applied needs.
 #pragma once
 
 #include <cstdint>
@@ -35,12 +35,12 @@ struct GlideVertex {
 // Why gliding keeps the promise: a split glides only if its new position is on one side of all the faces it moves, their normals
 // and those of all that they stand for lie within a half-space about one direction, and the star goes round once. Then both forms
 // of the star are heights over one region, seen along that direction; the tetrahedra between the old and the new corner over each
-// face moved all have one orientation, and their sum's boundary is the new form less the old, so they fill what is between the two
-// and nothing else. A corner part of the way lies on the edge between the two corners, and its faces within those tetrahedra: what
-// is drawn lies between what was drawn and what will be drawn. Both keep error_px as cuts of their own: a split begins to glide at
-// kGlideEnter of the error that forces it, and jumps to its place as soon as that is reached. Stars that glide at the same time share no face, since a split that touches another's faces needs it, and is not applied before the other has
-// arrived; so the cuts with every gliding star at its lower, and at its upper form are legal too, and bound the picture from both
-// sides.
+// face moved all have one orientation, and their sum's boundary is the new form less the old, so they fill what is between the
+// two and nothing else. A corner part of the way lies on the edge between the two corners, and its faces within those tetrahedra:
+// what is drawn lies between what was drawn and what will be drawn. Both keep error_px as cuts of their own: a split begins to
+// glide at kGlideEnter of the error that forces it, and jumps to its place as soon as that is reached. Stars that glide at the
+// same time share no face, since a split that touches another's faces needs it, and is not applied before the other has arrived;
+// so the cuts with every gliding star at its lower, and at its upper form are legal too, and bound the picture from both sides.
 class Refinement {
   public:
     explicit Refinement(const Mesh& mesh);
@@ -120,11 +120,12 @@ class Refinement {
 };
 
 // Refines each camera's own, several at once; the result is that of one after the other. All spans of one length.
-void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings, double dt_s,
-                std::span<FrameReport> reports);
+void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings,
+                double dt_s, std::span<FrameReport> reports);
 
-// The paper's comparison (Kram and Shaw 2002, 4.2), the variant `shared`: one refinement is brought to what each camera wants in turn,
-// every frame, whatever that takes (no budget of operations, nothing glides), and `draw(camera)` is called when it is there.
+// The paper's comparison (Kram and Shaw 2002, 4.2), the variant `shared`: one refinement is brought to what each camera wants in
+// turn, every frame, whatever that takes (no budget of operations, nothing glides), and `draw(camera)` is called when it is
+// there.
 void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,
                     const std::function<void(size_t camera)>& draw, std::span<FrameReport> reports);
 

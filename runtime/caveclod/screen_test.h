@@ -1,8 +1,10 @@
 // Should a split be applied, or undone, for one camera?
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "formats/caveclod.h"
@@ -14,8 +16,8 @@
 namespace overlook::caveclod {
 
 // Everything is taken from a split's sphere and cone, which hold all that it and whatever needs it touch: what is not wanted of a
-// split need not be asked of those. Wanting to split and wanting to collapse leave a band between them in which nothing changes: in pixels, in the
-// frame's borders (H. Hoppe 1997, view frustum and surface orientation), and in how far a cone turns away.
+// split need not be asked of those. Wanting to split and wanting to collapse leave a band between them in which nothing changes:
+// in pixels, in the frame's borders (H. Hoppe 1997, view frustum and surface orientation), and in how far a cone turns away.
 class ScreenTest {
   public:
     ScreenTest(const Mesh& mesh, const view::Camera& camera, const Settings& settings)
@@ -28,6 +30,8 @@ class ScreenTest {
           enter_share_(settings.glide_s > 0 ? kGlideEnter : 1),
           tests_cones_(settings.culls_back_faces || silhouette_px_ < split_px_),
           culls_back_faces_(settings.culls_back_faces) {
+        focal_px_ = view::focal_px(camera), corner_secant_ = view::corner_secant(camera), near_m_ = camera.near_m;
+        keep_reach_ = focal_px_ / (settings.error_px * settings.collapse_share) * (1 - kRounding);
         double half_y = camera.fov_y_deg * std::numbers::pi / 360;
         double half_x = std::atan(std::tan(half_y) * camera.width_px / camera.height_px);
         double guard = settings.guard_deg * std::numbers::pi / 180;
@@ -35,7 +39,8 @@ class ScreenTest {
         wide_ = {Side(half_x + 1.5 * guard), Side(half_y + 1.5 * guard)};
         if (tests_cones_) {
             for (size_t i = 0; i < 256; ++i)
-                sines_[i] = std::sin(double(i) * std::numbers::pi / 255), cosines_[i] = std::cos(double(i) * std::numbers::pi / 255);
+                sines_[i] = std::sin(double(i) * std::numbers::pi / 255),
+                cosines_[i] = std::cos(double(i) * std::numbers::pi / 255);
         }
     }
 
@@ -73,7 +78,35 @@ class ScreenTest {
         return answer;
     }
 
+    // Without root or division, for the many that change nothing.
+    //
+    // With d the distance of a sphere's middle, the least depth is at least (d - r) / secant and the widest secant at most the
+    // corner's: the error is within limit_px if d >= r + e * secant * (1 + f * secant / limit_px). reach_of() is that factor of
+    // e, made once for many splits; it serves for what wants to be split if limit_px is at most least_split_px().
+    double reach_of(double limit_px) const {
+        if (!(limit_px > 0)) return std::numeric_limits<double>::infinity();
+        return corner_secant_ * (1 + focal_px_ * corner_secant_ / limit_px) * (1 + kRounding);
+    }
+    double least_split_px() const { return std::min(split_px_, silhouette_px_) * enter_share_; }
+    bool is_within(uint32_t split, double reach) const {
+        double error_m = mesh_.error_m(split), far_m = mesh_.radius_m(split) + (error_m > 0 ? error_m * reach : 0);
+        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
+        return glm::dot(from_eye, from_eye) >= far_m * far_m;
+    }
+    // The least depth is at most d - r, or the nearest that is drawn, and a secant at least 1: what is applied in the wide sector
+    // stays if d - r is at most f * e / (collapse_share * error_px). Answers false as well where it cannot tell.
+    bool is_kept(uint32_t split) const {
+        if (tests_cones_) return false;
+        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
+        double radius_m = mesh_.radius_m(split), reach_m = mesh_.error_m(split) * keep_reach_;
+        double near_enough_m = radius_m + reach_m;
+        return reach_m > near_m_ && glm::dot(from_eye, from_eye) <= near_enough_m * near_enough_m &&
+               wide_.holds(bound_.place_of(from_eye), radius_m);
+    }
+
   private:
+    static constexpr double kRounding = 1e-9;  // what the shorter way may round otherwise
+
     // A pair of planes through the eye, at an angle to either side of the axis; none from 90 degrees on.
     struct Side {
         double sine = 1, cosine = 0;
@@ -110,6 +143,7 @@ class ScreenTest {
     glm::dvec3 eye_m_;
     double split_px_, silhouette_px_, collapse_share_, enter_share_;
     bool tests_cones_, culls_back_faces_;
+    double focal_px_ = 1, corner_secant_ = 1, near_m_ = 1, keep_reach_ = 0;
     Sector narrow_, wide_;
     std::array<double, 256> sines_{}, cosines_{};
 };

@@ -23,8 +23,8 @@ struct Settings {
     uint32_t most_operations = 8000;
     // Triangles drawn; 0: as many as the error asks for. Over it the least errors are collapsed first.
     uint64_t most_triangles = 0;
-    // A split's new position glides to its place in this time where that keeps the promise (Mesh::glides) and its error is at least
-    // least_glide_px; 0: everything pops.
+    // A split's new position glides to its place in this time where that keeps the promise (Mesh::glides) and its error is at
+    // least least_glide_px; 0: everything pops.
     double glide_s = 0.25;
     double least_glide_px = 0.25;
 };
@@ -32,12 +32,12 @@ struct Settings {
 // What a camera's frame did.
 struct FrameReport {
     uint32_t split_count = 0, collapse_count = 0;
-    uint32_t forced_count = 0;       // of the splits: made only because another needed them
-    uint32_t evaluated_count = 0;    // splits looked at
-    uint32_t gliding_count = 0;      // on their way after this frame
+    uint32_t forced_count = 0;     // of the splits: made only because another needed them
+    uint32_t evaluated_count = 0;  // splits looked at
+    uint32_t gliding_count = 0;    // on their way after this frame
     uint64_t triangle_count = 0;
-    double error_px = 0;             // the greatest bound of what is left unsplit in view
-    bool is_settled = true;          // no budget has left anything to do
+    double error_px = 0;     // the greatest bound of what is left unsplit in view
+    bool is_settled = true;  // no budget has left anything to do
 };
 
 }  // namespace overlook::caveclod

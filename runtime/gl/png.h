@@ -21,8 +21,8 @@ struct ImageRgba8 {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> pixels;  // [height, width, 4]
 };
-// Decodes a PNG of at most 16,384 pixels a side. `bytes` may be hostile. Fails with Exit::bad_input: "bark.png: is no picture that
-// can be read: invalid header; PNG is wanted".
+// Decodes a PNG of at most 16,384 pixels a side. `bytes` may be hostile. Fails with Exit::bad_input: "bark.png: is no picture
+// that can be read: invalid header; PNG is wanted".
 Result<ImageRgba8> decode_png(const std::string& name, std::span<const std::byte> bytes);
 
 }  // namespace overlook

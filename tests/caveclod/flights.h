@@ -22,7 +22,8 @@ inline view::Camera camera_at(double x, double y, double z, double heading_deg, 
 // Round hills of 64 m and down to them.
 inline view::Camera flown(double t) {
     double away_m = 50 + 30 * std::sin(1.3 * t);
-    return camera_at(32 + away_m * std::sin(t), 32 - away_m * std::cos(t), 12 + 6 * std::sin(2.7 * t), -t * 180 / 3.14159265, -25);
+    return camera_at(32 + away_m * std::sin(t), 32 - away_m * std::cos(t), 12 + 6 * std::sin(2.7 * t), -t * 180 / 3.14159265,
+                     -25);
 }
 
 inline Settings plain() {

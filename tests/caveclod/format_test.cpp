@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "tests/caveclod/mesh_files.h"
 #include "tests/caveclod/synthetic_hierarchy.h"
 
 namespace overlook::caveclod {
@@ -64,7 +65,8 @@ TEST(BakedMesh, KeepsWhatNoSplitShows) {
     ASSERT_GT(hierarchy.split_count(), 50u);
     // One that nothing touched asks for.
     auto row = [&](size_t i) {
-        return std::vector<uint32_t>(hierarchy.needs.begin() + hierarchy.need_begin[i], hierarchy.needs.begin() + hierarchy.need_begin[i + 1]);
+        return std::vector<uint32_t>(hierarchy.needs.begin() + hierarchy.need_begin[i],
+                                     hierarchy.needs.begin() + hierarchy.need_begin[i + 1]);
     };
     std::vector<uint32_t> given = row(40);
     uint32_t other = 39;

@@ -119,7 +119,8 @@ TEST(Refinement, KeepsTheErrorAskedOfEverythingInView) {
             EXPECT_LE(report.error_px, settings.error_px);
             for (uint32_t i = 0; i < h.split_count(); ++i) {
                 bool is_open = !refinement.is_applied(i);
-                for (uint32_t k = h.need_begin[i]; is_open && k < h.need_begin[i + 1]; ++k) is_open = refinement.is_applied(h.needs[k]);
+                for (uint32_t k = h.need_begin[i]; is_open && k < h.need_begin[i + 1]; ++k)
+                    is_open = refinement.is_applied(h.needs[k]);
                 if (!is_open) continue;
                 ScreenTest::Answer answer = ScreenTest(mesh, camera, settings)(i);
                 ASSERT_FALSE(answer.must_split);
@@ -127,6 +128,32 @@ TEST(Refinement, KeepsTheErrorAskedOfEverythingInView) {
             }
         }
     }
+}
+
+// The short way never says that something stays which the long way would change.
+TEST(ScreenTest, AnswersTheShortWayAsTheLongOne) {
+    const Hierarchy& h = hills();
+    Mesh mesh = mesh_of(h);
+    size_t within = 0, kept = 0, all = 0;
+    for (int pose = 0; pose < 60; ++pose) {
+        ScreenTest test(mesh, flown(0.1 * pose), plain());
+        for (double limit_px : {0.1, 1.0, 4.0}) {
+            double reach = test.reach_of(limit_px);
+            for (uint32_t i = 0; i < h.split_count(); ++i) {
+                ++all;
+                if (test.is_within(i, reach)) {
+                    ++within;
+                    ASSERT_LE(test(i).error_px, limit_px);
+                }
+                if (test.is_kept(i)) {
+                    ++kept;
+                    ASSERT_FALSE(test(i).wants_collapse);
+                }
+            }
+        }
+    }
+    EXPECT_GT(within, all / 200);
+    EXPECT_GT(kept, all / 50);
 }
 
 TEST(Refinement, RestsWhileTheCameraStands) {
@@ -218,9 +245,11 @@ TEST(Refinement, SplitsTheGreatestErrorsFirst) {
     double least_made = std::numeric_limits<double>::infinity(), greatest_left = 0;
     for (uint32_t i = 0; i < h.split_count(); ++i) {
         bool needs_all = true;
-        for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k) needs_all = needs_all && refinement.is_applied(h.needs[k]);
+        for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k)
+            needs_all = needs_all && refinement.is_applied(h.needs[k]);
         if (refinement.is_applied(i)) least_made = std::min(least_made, test(i).error_px);
-        if (!refinement.is_applied(i) && needs_all && test(i).wants_split) greatest_left = std::max(greatest_left, test(i).error_px);
+        if (!refinement.is_applied(i) && needs_all && test(i).wants_split)
+            greatest_left = std::max(greatest_left, test(i).error_px);
     }
     EXPECT_GE(least_made, greatest_left);
     EXPECT_EQ(report.error_px, greatest_left);
@@ -253,7 +282,8 @@ TEST(Refinement, LeavesUnsplitWhatLooksAwayOnlyIfBackFacesAreCulled) {
         Refinement refinement(mesh);
         refinement.refine(camera, asked, kFrame_s);
         size_t count = 0;
-        for (const Triangle& t : drawn(refinement)) count += h.positions_m[h.vertices[t.vertices[0]].position].y + h.origin_m.y > 6;
+        for (const Triangle& t : drawn(refinement))
+            count += h.positions_m[h.vertices[t.vertices[0]].position].y + h.origin_m.y > 6;
         return count;
     };
     size_t kept = behind(settings);
@@ -292,7 +322,8 @@ TEST(Refinements, OfManyCamerasAreEachAsIfAloneWithAnyThreadCount) {
                 const FacePage& page = *refinement.faces().pages(surface)[p];
                 all.insert(all.end(), page.indices.begin(), page.indices.begin() + 3 * refinement.faces().page_count(surface, p));
             }
-        for (const GlideVertex& vertex : refinement.glide_vertices()) all.insert(all.end(), {vertex.to, vertex.from, uint32_t(1e6f * vertex.share)});
+        for (const GlideVertex& vertex : refinement.glide_vertices())
+            all.insert(all.end(), {vertex.to, vertex.from, uint32_t(1e6f * vertex.share)});
         return all;
     };
     Settings settings = plain();
@@ -334,10 +365,12 @@ TEST(RefinementMemory, IsWithinWhatIsPromised) {
     double active = double(bytes.active) / double(refinement.faces().face_count());
     EXPECT_LE(double(bytes.fixed), 0.01 * double(mesh.bytes().all()));
     EXPECT_LE(active, 24);
-    std::printf("static %.1f bytes a triangle (bounds %.1f, records %.1f, vertices %.1f, base %.1f); fixed %.2f %%, active %.1f bytes a face\n",
-                bytes_per_triangle, double(mesh.bytes().bounds) / mesh.face_count(), double(mesh.bytes().records) / mesh.face_count(),
-                double(mesh.bytes().vertices) / mesh.face_count(), double(mesh.bytes().base) / mesh.face_count(),
-                100.0 * double(bytes.fixed) / double(mesh.bytes().all()), active);
+    std::printf(
+        "static %.1f bytes a triangle (bounds %.1f, records %.1f, vertices %.1f, base %.1f); fixed %.2f %%, active %.1f bytes a "
+        "face\n",
+        bytes_per_triangle, double(mesh.bytes().bounds) / mesh.face_count(), double(mesh.bytes().records) / mesh.face_count(),
+        double(mesh.bytes().vertices) / mesh.face_count(), double(mesh.bytes().base) / mesh.face_count(),
+        100.0 * double(bytes.fixed) / double(mesh.bytes().all()), active);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "tests/formats/scratch_folder.h"
 
 namespace overlook::caveclod::synthetic {
 namespace {
@@ -77,9 +76,15 @@ class Baker {
         return glm::cross(at(face[1]) - at(face[0]), at(face[2]) - at(face[0]));
     }
 
+    // Does the line of a feature turn by more than 60 degrees?
+    bool is_bend(uint32_t p, uint32_t before, uint32_t after) const {
+        return glm::dot(glm::normalize(at(before) - at(p)), glm::normalize(at(after) - at(p))) > -0.5;
+    }
+
     bool is_legal(uint32_t from, uint32_t to, double& cost) const {
         std::set<uint32_t> ring_from = ring(from), ring_to = ring(to), both, apexes;
-        std::set_intersection(ring_from.begin(), ring_from.end(), ring_to.begin(), ring_to.end(), std::inserter(both, both.end()));
+        std::set_intersection(ring_from.begin(), ring_from.end(), ring_to.begin(), ring_to.end(),
+                              std::inserter(both, both.end()));
         for (uint32_t face : star_[from])
             if (std::find(faces_[face].begin(), faces_[face].end(), to) != faces_[face].end())
                 for (uint32_t q : faces_[face])
@@ -87,6 +92,7 @@ class Baker {
         if (both != apexes || apexes.empty() || ring_from.size() + ring_to.size() < 8 || ring_to.size() > 14) return false;
         std::set<uint32_t> features_from = features(from);
         if (!features_from.empty() && (features_from.size() != 2 || features_from.count(to) == 0)) return false;
+        if (!features_from.empty() && is_bend(from, *features_from.begin(), *features_from.rbegin())) return false;
         for (uint32_t group : groups_at(from))
             if (groups_at(to).count(group) == 0) return false;
         cost = 0;
@@ -187,8 +193,13 @@ class Numbering {
         for (uint32_t group = 0; group < h_.group_surface.size(); ++group) h_.group_packed.push_back(uint16_t(group));
         uint32_t surface_count = 1 + *std::max_element(h_.group_surface.begin(), h_.group_surface.end());
         for (uint32_t i = 0; i < surface_count; ++i)
-            h_.surfaces.push_back({fmt::format("surface {}", i), {uint8_t(200 - 40 * (i % 4)), uint8_t(90 + 50 * (i % 3)), 80, 255}, "",
-                                   {}, false, 0.5f, false});
+            h_.surfaces.push_back({fmt::format("surface {}", i),
+                                   {uint8_t(200 - 40 * (i % 4)), uint8_t(90 + 50 * (i % 3)), 80, 255},
+                                   "",
+                                   {},
+                                   false,
+                                   0.5f,
+                                   false});
         return std::move(h_);
     }
 
@@ -263,7 +274,8 @@ Source hills(uint32_t columns, uint32_t rows, uint32_t group_columns, double hei
     Source source;
     for (uint32_t y = 0; y <= rows; ++y)
         for (uint32_t x = 0; x <= columns; ++x)
-            source.positions_m.emplace_back(x, y, height_m * (std::sin(x * 0.21) * std::cos(y * 0.17) + 0.2 * std::sin(x * 0.9 + y * 1.3)));
+            source.positions_m.emplace_back(
+                x, y, height_m * (std::sin(x * 0.21) * std::cos(y * 0.17) + 0.2 * std::sin(x * 0.9 + y * 1.3)));
     for (uint32_t y = 0; y < rows; ++y) {
         for (uint32_t x = 0; x < columns; ++x) {
             uint32_t a = y * (columns + 1) + x, b = a + 1, c = a + columns + 1, d = c + 1;
@@ -284,8 +296,8 @@ Source sphere(uint32_t rings) {
     for (uint32_t ring = 1; ring < rings; ++ring)
         for (uint32_t m = 0; m < meridians; ++m) {
             double theta = kPi * ring / rings, phi = 2 * kPi * m / meridians;
-            source.positions_m.emplace_back(kRadius_m * std::sin(theta) * std::cos(phi), kRadius_m * std::sin(theta) * std::sin(phi),
-                                            kRadius_m * std::cos(theta));
+            source.positions_m.emplace_back(kRadius_m * std::sin(theta) * std::cos(phi),
+                                            kRadius_m * std::sin(theta) * std::sin(phi), kRadius_m * std::cos(theta));
         }
     source.positions_m.emplace_back(0, 0, -kRadius_m);
     auto place = [&](uint32_t ring, uint32_t m) { return 1 + (ring - 1) * meridians + m % meridians; };
@@ -341,19 +353,6 @@ std::vector<Triangle> triangles_of(const Hierarchy& h, const std::vector<bool>& 
     std::vector<Triangle> triangles;
     for (const auto& [face, triangle] : faces) triangles.push_back(triangle);
     return triangles;
-}
-
-std::string file_of(const Hierarchy& hierarchy, Codec codec) {
-    ScratchFolder folder;
-    Result<container::Writer> writer = container::Writer::create(folder / "mesh.ovl", kKind);
-    if (!writer || !write(*writer, hierarchy, codec) || !writer->commit()) return "";
-    return text_of_file(folder / "mesh.ovl");
-}
-
-Result<Hierarchy> read_bytes(const std::string& bytes, uint32_t most_blocks) {
-    Result<container::Reader> file = container::Reader::open_bytes(std::as_bytes(std::span(bytes)), "mesh.ovl");
-    if (!file) return tl::unexpected(file.error());
-    return read(*file, most_blocks);
 }
 
 }  // namespace overlook::caveclod::synthetic

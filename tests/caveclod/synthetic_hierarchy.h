@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <string>
 #include <vector>
 
 #include "formats/caveclod.h"
@@ -19,8 +18,8 @@ struct Source {
     Attributes attributes{true, true, false};
 };
 
-// (columns + 1) * (rows + 1) positions a metre apart over hills `height_m` high, in group_columns * 1 groups side by side, each of
-// a surface of its own.
+// (columns + 1) * (rows + 1) positions a metre apart over hills `height_m` high, in group_columns * 1 groups side by side, each
+// of a surface of its own.
 Source hills(uint32_t columns, uint32_t rows, uint32_t group_columns = 1, double height_m = 4);
 // Closed: a sphere of radius 10 m, `rings` from pole to pole and twice as many meridians.
 Source sphere(uint32_t rings);
@@ -38,9 +37,5 @@ struct Triangle {
 };
 // is_applied: [S], closed under needs. In order of faces.
 std::vector<Triangle> triangles_of(const Hierarchy& hierarchy, const std::vector<bool>& is_applied);
-
-// The same hierarchy as a file's bytes, and back.
-std::string file_of(const Hierarchy& hierarchy, Codec codec = Codec::meshopt);
-Result<Hierarchy> read_bytes(const std::string& bytes, uint32_t most_blocks = ~0u);
 
 }  // namespace overlook::caveclod::synthetic

@@ -43,7 +43,8 @@ TEST(PaperRefinement, DrawsAClosedSurfaceWithVerticesOfItsGroups) {
     Hierarchy h = synthetic::bake(synthetic::sphere(24));
     paper::Mesh mesh(h);
     paper::CameraRefinement refinement(mesh);
-    for (int frame = 0; frame < 40; ++frame) refinement.refine(camera_at(0, -30, 0, 0, 0), {paper::Criterion::pixel_error, plain()});
+    for (int frame = 0; frame < 40; ++frame)
+        refinement.refine(camera_at(0, -30, 0, 0, 0), {paper::Criterion::pixel_error, plain()});
     std::vector<std::vector<uint32_t>> indices;
     uint64_t wrong = 0;
     refinement.collect(indices, wrong);
@@ -52,7 +53,8 @@ TEST(PaperRefinement, DrawsAClosedSurfaceWithVerticesOfItsGroups) {
     EXPECT_EQ(indices[0].size(), 3 * refinement.active_polygon_count());
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     for (size_t k = 0; k < indices[0].size(); k += 3)
-        for (size_t c = 0; c < 3; ++c) ++edges[{h.vertices[indices[0][k + c]].position, h.vertices[indices[0][k + (c + 1) % 3]].position}];
+        for (size_t c = 0; c < 3; ++c)
+            ++edges[{h.vertices[indices[0][k + c]].position, h.vertices[indices[0][k + (c + 1) % 3]].position}];
     for (const auto& [edge, count] : edges) {
         ASSERT_EQ(count, 1);
         ASSERT_EQ(edges.count({edge.second, edge.first}), 1u);
@@ -71,7 +73,8 @@ TEST(PaperRefinement, ForcesWhatASplitNeedsAndGoesBackToTheCoarsest) {
     EXPECT_GT(all.forced_count, 0u);
     EXPECT_GT(all.split_count, all.forced_count);
     uint64_t fine = refinement.active_polygon_count();
-    for (int frame = 0; frame < 60; ++frame) refinement.refine(camera_at(32, -200, 10, 180, 0), {paper::Criterion::pixel_error, plain()});
+    for (int frame = 0; frame < 60; ++frame)
+        refinement.refine(camera_at(32, -200, 10, 180, 0), {paper::Criterion::pixel_error, plain()});
     EXPECT_LT(refinement.active_polygon_count(), fine / 4);
     EXPECT_GE(refinement.active_polygon_count(), coarsest);
 }
@@ -108,7 +111,8 @@ TEST(SharedRefinement, DrawsTheSameAtEqualErrorWithManyTimesTheOperations) {
             cameras.push_back(flown(0.004 * frame + 0.25 * double(c)));
             cameras.back().heading_deg += 90 * double(c);
         }
-        refine_in_turn(shared, cameras, plain(), [&](size_t c) { drawn[c] = shared.faces().face_count(); }, reports);
+        refine_in_turn(
+            shared, cameras, plain(), [&](size_t c) { drawn[c] = shared.faces().face_count(); }, reports);
         for (size_t c = 0; c < kCameras; ++c) {
             EXPECT_LE(reports[c].error_px, plain().error_px);
             EXPECT_EQ(reports[c].triangle_count, drawn[c]);

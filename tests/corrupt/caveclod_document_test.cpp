@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/caveclod/synthetic_hierarchy.h"
+#include "tests/caveclod/mesh_files.h"
 #include "tests/corrupt/caveclod_fixtures.h"
 #include "tests/corrupt/terrain_fixtures.h"
 #include "tests/formats/scratch_folder.h"

@@ -188,7 +188,9 @@ std::vector<Fixture> broken_directories() {
             {"m09_checksum.ovl", 9, with_entry(8, 1)},
             {"m09_second_block.ovl", 9, with_entry(32 + 12, 1)},
             {"m18_base_rest.ovl", 18, with_entry(28, 3)},
-            {"m18_block_rest.ovl", 18, changed([](Parts& parts) { parts.rest_errors = {900, 900}; })},
+            {"m18_block_rest.ovl", 18, changed([](Parts& parts) {
+                 parts.rest_errors = {900, 900};
+             })},
             {"m19_faces.ovl", 19, with_u32(12, 7)},
             {"m19_vertices.ovl", 19, with_u32(16, 8)}};
 }
@@ -217,12 +219,13 @@ std::vector<Fixture> broken_rows() {
             {"m10_other_raw_bytes.ovl", 10, meshopt_byte(-8, 255)},
             {"m11_below.ovl", 11, with_value(0, kPosition, 0, zigzag(-1))},
             {"m11_beyond.ovl", 11, with_value(1, kPosition, 0, zigzag(16384))},
-            {"m11_far_beyond.ovl", 11, with_value(1, kPosition, 2, 0xffffffff)},
+            {"m11_far_beyond.ovl", 11, with_value(1, kPosition, 2, 0x7fffffff)},
             {"m12_normal.ovl", 12, with_value(0, kNormal, 0, zigzag(512))},
             {"m12_normal_of_split.ovl", 12, with_value(1, kNormal, 1, 0x7fffffff)},
             {"m12_most_wedges.ovl", 12, with_value(0, kWedgeCount, 0, 65535)},
             {"m12_wedge.ovl", 12, with_two_wedges(2)},
-            {"m12_wedge_of_added.ovl", 12, with_rare(kOtherFaces | kOtherGroups | kOtherWedges, {2, 0, 1, 1, 5, 0, 0, 1, 0, 0, 0, 0, 0})},
+            {"m12_wedge_of_added.ovl", 12,
+             with_rare(kOtherFaces | kOtherGroups | kOtherWedges, {2, 0, 1, 1, 5, 0, 0, 1, 0, 0, 0, 0, 0})},
             {"m13_surface.ovl", 13, with_value(0, kBase, 0, zigzag(1))},
             {"m13_packed.ovl", 13, with_value(0, kBase, 1, 65536)},
             {"m13_position.ovl", 13, with_value(0, kBase, 4, zigzag(6))},
@@ -233,7 +236,7 @@ std::vector<Fixture> broken_rows() {
             {"m14_negative_owner.ovl", 14, with_value(1, kOwner, 0, zigzag(-1))},
             {"m14_flags.ovl", 14, with_value(1, kFlags, 0, 32)},
             {"m14_arc_too_long.ovl", 14, with_value(1, kArcLength, 0, 5)},
-            {"m14_longest_arc.ovl", 14, with_value(1, kArcLength, 0, 0xffffffff)},
+            {"m14_longest_arc.ovl", 14, with_value(1, kArcLength, 0, 0x7fffffff)},
             {"m14_other_move.ovl", 14, with_rare(kOtherMoves | kOtherFaces, {1, 4, 0})},
             {"m14_moves_twice.ovl", 14, with_rare(kOtherMoves | kOtherFaces, {2, 1, 1, 0})},
             {"m14_wide_star.ovl", 14, with_wide_star()},
@@ -244,7 +247,7 @@ std::vector<Fixture> broken_rows() {
             {"m15_group.ovl", 15, with_rare(kOtherFaces | kOtherGroups, {1, 0, 1, 1})},
             {"m16_itself.ovl", 16, with_rare(kMoreNeeds, {1, 0})},
             {"m16_before_the_first.ovl", 16, with_rare(kMoreNeeds, {1, 1})},
-            {"m16_far_before.ovl", 16, with_rare(kMoreNeeds, {1, 0xffffffff})},
+            {"m16_far_before.ovl", 16, with_rare(kMoreNeeds, {1, 0x7fffffff})},
             {"m16_twice.ovl", 16, with_need_twice()},
             {"m17_below_none.ovl", 17, with_value(1, kError, 0, 961)}};
 }
@@ -258,8 +261,9 @@ std::vector<Fixture> whole_files() {
     auto made = [](const Hierarchy& hierarchy, Codec codec) { return Parts::of(hierarchy, codec).file(); };
     return {{"hexagon.ovl", 0, base.file()},
             {"hexagon_meshopt.ovl", 0, made(hexagon(), Codec::meshopt)},
-            {"other_moves.ovl", 0, with_rare(kOtherMoves | kOtherFaces | kOtherGroups | kOtherWedges,
-                                             {4, 0, 1, 2, 3, 2, 0, 1, 1, 5, 0, 0, 0, 0, 0, 0, 0, 0})},
+            {"other_moves.ovl", 0,
+             with_rare(kOtherMoves | kOtherFaces | kOtherGroups | kOtherWedges,
+                       {4, 0, 1, 2, 3, 2, 0, 1, 1, 5, 0, 0, 0, 0, 0, 0, 0, 0})},
             {"two_groups.ovl", 0, made(synthetic::bake(striped), Codec::draco)},
             {"two_groups_meshopt.ovl", 0, made(synthetic::bake(striped), Codec::meshopt)},
             {"sphere.ovl", 0, made(synthetic::bake(synthetic::sphere(5)), Codec::draco)}};

@@ -19,7 +19,7 @@ Hierarchy hexagon();
 // A file in pieces that can be broken one by one, and put together with right checksums.
 struct Parts {
     Bytes info, surfaces;
-    std::vector<Rows> blocks;           // the base first
+    std::vector<Rows> blocks;            // the base first
     std::vector<uint32_t> split_counts;  // of each
     std::vector<uint32_t> rest_errors;
     Codec codec = Codec::draco;

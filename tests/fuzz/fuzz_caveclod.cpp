@@ -1,5 +1,5 @@
-// Any bytes as a baked mesh: nothing may crash, leak or take memory without bound; what is read keeps its promises, can be written
-// again, and refined.
+// Any bytes as a baked mesh: nothing may crash, leak or take memory without bound; what is read keeps its promises, can be
+// written again, and refined.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -34,7 +34,8 @@ void visit_sections(std::span<std::byte> file, const Visit& visit) {
 bool is_small(std::span<std::byte> file) {
     bool small = true;
     visit_sections(file, [&](size_t entry, Tag tag, std::span<std::byte>) {
-        if (tag == caveclod::kSurfacesTag && load_le<uint64_t>(file, entry + entry_at::raw_bytes) > kMostRawSurfaceBytes) small = false;
+        if (tag == caveclod::kSurfacesTag && load_le<uint64_t>(file, entry + entry_at::raw_bytes) > kMostRawSurfaceBytes)
+            small = false;
     });
     return small;
 }

@@ -16,12 +16,13 @@ const std::string kRoot = OVERLOOK_SOURCE_DIR;
 const std::string kFixtures = kRoot + "/tests/layering/fixtures";
 
 // All that a program which reads or draws baked files may ask for by itself.
-constexpr std::array<std::string_view, 19> kLean = {
-    "libepoxy.so",  "libglfw.so",   "libEGL.so",  "libGL.so",  "libOpenGL.so", "libspng.so",  // OpenGL, window, pictures
-    "libstb.so",                                                                              // the overlay's letters
-    "libzstd.so",   "libxxhash.so", "libtbb.so",  "libfmt.so",                                // codecs, checksums, threads, text
-    "libstdc++.so", "libgcc_s.so",  "libm.so",    "libc.so",   "ld-linux",                    // the language
-    "libasan.so",   "libubsan.so",  "libtsan.so",                                             // in sanitized builds
+constexpr std::array<std::string_view, 21> kLean = {
+    "libepoxy.so",  "libglfw.so",          "libEGL.so",  "libGL.so",  "libOpenGL.so", "libspng.so",  // OpenGL, window, pictures
+    "libstb.so",                                                                                     // the overlay's letters
+    "libzstd.so",   "libxxhash.so",        "libtbb.so",  "libfmt.so",              // codecs, checksums, threads, text
+    "libdraco.so",  "libmeshoptimizer.so",                                         // codecs of meshes
+    "libstdc++.so", "libgcc_s.so",         "libm.so",    "libc.so",   "ld-linux",  // the language
+    "libasan.so",   "libubsan.so",         "libtsan.so",                           // in sanitized builds
 };
 
 std::string lines_of(const std::vector<Finding>& findings) {
