@@ -11,14 +11,11 @@
 namespace overlook::measure::paper {
 namespace {
 
-// How keys are made is a setting by words where the method has a second context for them, a switch where it has not.
-constexpr std::array<Remedy, 13> kRemedies = {{
+constexpr std::array<Remedy, 12> kRemedies = {{
     {"keys in slices", "keyframe=at-once",
      "A key is drawn a slice a frame, for a pose predicted ahead; here whole, in the frame that finds the old one too bad."},
     {"keys in slices", "keyframe=thread",
      "A key is drawn a slice a frame, for a pose predicted ahead; here whole, by a thread in a second context."},
-    {"keys in slices", "sliced=0",
-     "A key is drawn a slice a frame, for a pose predicted ahead; here whole, in the frame that finds the old one too bad."},
     {"cache of keys", "slots=2", "Four keys are kept for a way back; without, only the one in use and the one being drawn."},
     {"guard band", "guard=1", "A key is 15 % wider and higher than the frame, so that turning does not leave it at once."},
     {"cross-fade", "fade-frames=0", "A new key takes over from the old one within eight frames; without, at once."},
@@ -26,7 +23,7 @@ constexpr std::array<Remedy, 13> kRemedies = {{
      "The coarse surface is raised until it covers the true one, so that crests show the key's outline and not their own."},
     {"slab test", "slab-test=0", "A texel's depth must lie where the coarse surface's own promise allows it."},
     {"place test", "place-test=0", "A texel counts only within half a pixel of its own place in this frame."},
-    {"second look-up", "look-ups=1", "The key is asked again where the first texel's depth puts the point."},
+    {"further look-ups", "look-ups=1", "The key is asked again where the texel's depth puts the point, and once more."},
     {"near geometry", "near=0", "What is too near for a key to serve is drawn as geometry, as fine as asked."},
     {"keys of twice the resolution", "key-scale=1", "Four texels a pixel carry the antialiasing into the frames between keys."},
     {"geomorph (here on)", "morph=0.5",
@@ -95,13 +92,7 @@ std::string told(const Change& change) {
 }  // namespace
 
 std::span<const Remedy> remedies() {
-    static const std::vector<Remedy> kKnown = [] {
-        std::vector<Remedy> known;
-        for (const Remedy& remedy : kRemedies)
-            if (parse_method("lod-sprite@" + std::string(remedy.off))) known.push_back(remedy);
-        return known;
-    }();
-    return kKnown;
+    return kRemedies;
 }
 
 Result<RemedyTable> fly_remedies(const Flying& flying, const Plan& plan, uint32_t frames,

@@ -16,7 +16,7 @@ struct Remedy {
     std::string_view off;      // the setting of lod-sprite that takes it away: "fade-frames=0"
     std::string_view purpose;  // a sentence
 };
-std::span<const Remedy> remedies();  // whose settings lod-sprite has
+std::span<const Remedy> remedies();
 
 // A remedy's row, or one of those that they are held against.
 struct RemedyRow {
