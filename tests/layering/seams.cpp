@@ -7,7 +7,7 @@ std::span<const Seam> seams() {
     static const std::vector<Seam> kSeams = {
         {"Embree", {"embree"}, {}},
         {"OpenMesh", {"OpenMesh/"}, {"tools/bake/caveclod/openmesh_topology.cpp"}},
-        {"CGAL", {"CGAL/"}, {}},
+        {"CGAL", {"CGAL/"}, {"tools/bake/cgal/self_intersections.cpp"}},
         {"Draco", {"draco/"}, {"formats/draco_codec.cpp", "tools/bake/mesh/gltf_draco.cpp"}},
         {"meshoptimizer", {"meshoptimizer.h"}, {"formats/meshopt_codec.cpp", "tools/bake/mesh/gltf_meshopt.cpp"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"tools/bake/images.cpp"}},
