@@ -18,7 +18,8 @@ std::vector<std::byte> meshopt_packed(std::span<const uint32_t> values);
 // Fills `values` from exactly these bytes; false if they are not its. `packed` may be hostile.
 bool meshopt_unpack(std::span<const std::byte> packed, std::span<uint32_t> values);
 
-// Draco's symbol coding (rANS: J. Duda, 2013) over the same, each below 2^31; nothing if Draco cannot.
+// Draco's symbol coding (rANS: J. Duda, 2013) over the same: the size of the low halves, those, and the
+// high halves unless all are 0; nothing if Draco cannot.
 std::optional<std::vector<std::byte>> draco_packed(std::span<const uint32_t> values);
 bool draco_unpack(std::span<const std::byte> packed, std::span<uint32_t> values);
 

@@ -210,7 +210,7 @@ std::vector<Fixture> broken_rows() {
             {"m10_byte_more.ovl", 10, with_stored(1, [](Bytes& bytes) { bytes.push_back(std::byte(0)); })},
             {"m10_most_numbers.ovl", 10, with_stored(0, [](Bytes& bytes) { store_le<uint32_t>(bytes, 0, 0xffffffff); })},
             {"m10_chunk_beyond_end.ovl", 10, with_stored(0, [](Bytes& bytes) { store_le<uint32_t>(bytes, 4, 0xffffffff); })},
-            {"m10_not_a_codec.ovl", 10, with_stored(0, [](Bytes& bytes) { bytes[8] = std::byte(7); })},
+            {"m10_not_a_codec.ovl", 10, with_stored(0, [](Bytes& bytes) { bytes[12] = std::byte(7); })},
             {"m10_number_less.ovl", 10, resized(kPosition, 2)},
             {"m10_number_more.ovl", 10, resized(kPosition, 4)},
             {"m10_no_owner.ovl", 10, resized(kOwner, 0)},
