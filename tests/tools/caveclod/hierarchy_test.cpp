@@ -230,6 +230,44 @@ TEST(Hierarchy, RefusesAMeshThatIsNoSurface) {
               "face 3 cannot be added: an edge of it has two faces already, or the faces at a corner are no fan");
 }
 
+TEST(Hierarchy, RefusesAPositionWithoutAFace) {
+    mesh::Mesh mesh = test::grid(2, 2, flat_m);
+    mesh.positions_m.emplace_back(5, 5, 5);
+    auto groups = find_groups(mesh, {});
+    auto h = build_hierarchy(mesh, *groups, {});
+    ASSERT_FALSE(h.has_value());
+    EXPECT_EQ(h.error().message, "position 9 is no corner of any face");
+}
+
+TEST(Hierarchy, StopsAtTheFaceCountAskedFor) {
+    mesh::Mesh mesh = test::sphere(30, 15);
+    auto groups = find_groups(mesh, {});
+    SimplifyOptions options;
+    options.least_face_count = 300;
+    auto h = build_hierarchy(mesh, *groups, options);
+    EXPECT_LE(h->base_face_count, 300u);
+    EXPECT_GE(h->base_face_count, 298u);
+    EXPECT_EQ(broken_law(*h), "");
+}
+
+TEST(Hierarchy, OfComponentsKeepsEachOfThem) {
+    mesh::Mesh mesh = test::sphere(8, 5);
+    uint32_t position_count = uint32_t(mesh.positions_m.size()), face_count = uint32_t(mesh.faces.size());
+    for (uint32_t copy = 1; copy < 60; ++copy) {
+        for (uint32_t p = 0; p < position_count; ++p) mesh.positions_m.push_back(mesh.positions_m[p] + glm::vec3(3 * copy, 0, 0));
+        for (uint32_t f = 0; f < face_count; ++f) {
+            mesh::Corners face = mesh.faces[f];
+            for (uint32_t& p : face) p += copy * position_count;
+            mesh.faces.push_back(face);
+        }
+    }
+    mesh.face_surface.assign(mesh.faces.size(), 0);
+    Hierarchy h = baked(mesh);
+    EXPECT_EQ(broken_law(h), "");
+    EXPECT_EQ(broken_surface(faces_of(h, Applied(h.split_count(), 0))), "");
+    EXPECT_GE(h.base_face_count, 60u * 4) << "no component may vanish: nothing would stand where it was";
+}
+
 TEST(Hierarchy, LeavesWhatMayNotBeCollapsed) {
     for (uint32_t n : {1u, 2u}) {
         mesh::Mesh mesh = test::grid(n, 1, flat_m);

@@ -35,10 +35,10 @@ double metres_per_uv(const RenderVertex& a, const RenderVertex& b, const RenderV
 
 double attribute_deviation_m(const WorkingMesh& mesh, const Fan& fan, const TurnedVertices& turned, uint32_t place) {
     uint32_t corner = fan.corner[place];
-    const RenderVertex& was = mesh.render_vertices[mesh.vertex[corner]];
+    const RenderVertex& was = mesh.render_vertices[mesh.vertex(corner)];
     const RenderVertex& a = mesh.render_vertices[turned[place]];
-    const RenderVertex& b = mesh.render_vertices[mesh.vertex[next_corner(corner)]];
-    const RenderVertex& c = mesh.render_vertices[mesh.vertex[previous_corner(corner)]];
+    const RenderVertex& b = mesh.render_vertices[mesh.vertex(next_corner(corner))];
+    const RenderVertex& c = mesh.render_vertices[mesh.vertex(previous_corner(corner))];
     glm::dvec3 at_a = mesh.at(fan.kept), at_b = mesh.at(fan.link[place]), at_c = mesh.at(fan.link[place + 1]);
     glm::dvec3 w = weights_at(mesh.at(fan.gone), at_a, at_b, at_c);
     double area2_m2 = glm::length(glm::cross(at_b - at_a, at_c - at_a)), width_m = std::sqrt(area2_m2);

@@ -20,12 +20,12 @@ glm::dvec3 unit(const glm::dvec3& v) {
 }
 
 void add_face(const WorkingMesh& mesh, uint32_t corner, Quadric& quadric) {
-    glm::dvec3 a = mesh.at(mesh.position[corner]), b = mesh.at(mesh.position[next_corner(corner)]);
-    glm::dvec3 c = mesh.at(mesh.position[previous_corner(corner)]);
+    glm::dvec3 a = mesh.at(mesh.position(corner)), b = mesh.at(mesh.position(next_corner(corner)));
+    glm::dvec3 c = mesh.at(mesh.position(previous_corner(corner)));
     glm::dvec3 cross = glm::cross(b - a, c - a), normal = unit(cross);
     quadric.add_plane(normal, -glm::dot(normal, a), glm::length(cross) / 2);
     auto add_upright = [&](uint32_t facing, const glm::dvec3& end) {
-        if (!mesh.is_feature[mesh.edge[facing]]) return;
+        if (!mesh.is_feature[mesh.edge(facing)]) return;
         glm::dvec3 along = end - a, upright = unit(glm::cross(normal, along));
         quadric.add_plane(upright, -glm::dot(upright, a), glm::dot(along, along) * kFeatureWeight);
     };
@@ -33,35 +33,36 @@ void add_face(const WorkingMesh& mesh, uint32_t corner, Quadric& quadric) {
     add_upright(next_corner(corner), c);
 }
 
-// The star of a position that may go, with the expected cost of each of its edges.
+// The star of a position that may go, with the squared cost of each of its edges: comparing needs no roots.
 struct Choices {
     Star star;
     uint32_t count = 0;
-    std::array<double, kMostValence + 1> cost_m;
+    std::array<double, kMostValence + 1> cost2;
 };
 
 bool estimate(const WorkingMesh& mesh, const Quadric& quadric, uint32_t position, Choices& choices) {
     Star& star = choices.star;
     if (mesh.kind[position] == PositionKind::rigid || !gather_star(mesh, position, star)) return false;
     glm::dvec3 from = mesh.at(position), area_vector(0), before = mesh.at(star.link[0]) - from;
-    double area2 = 0;
     for (uint32_t i = 0; i < star.count; ++i) {
-        glm::dvec3 after = mesh.at(star.link[i + 1]) - from, cross = glm::cross(before, after);
-        area_vector += cross, area2 += std::sqrt(glm::dot(cross, cross));
+        glm::dvec3 after = mesh.at(star.link[i + 1]) - from;
+        area_vector += glm::cross(before, after);
         before = after;
     }
+    double vector2 = glm::dot(area_vector, area_vector),
+           volume2 = vector2 > 0 ? kVolumeWeight * kVolumeWeight / (9 * vector2) : 0;
+    double inverse_weight = quadric.weight > 0 ? 1 / quadric.weight : 0;
     choices.count = star.count + uint32_t(!star.is_closed);
     for (uint32_t i = 0; i < choices.count; ++i) {
         glm::dvec3 to = mesh.at(star.link[i]), step = to - from;
-        double mean2 = quadric.weight > 0 ? std::max(quadric.at(to), 0.0) / quadric.weight : 0;
-        double offset = area2 > 0 ? std::abs(glm::dot(area_vector, step)) / (3 * area2) : 0;
-        choices.cost_m[i] = std::sqrt(mean2) + kVolumeWeight * offset + kLengthWeight * std::sqrt(glm::dot(step, step));
+        double mean2 = std::max(quadric.at(to), 0.0) * inverse_weight, along = glm::dot(area_vector, step);
+        choices.cost2[i] = mean2 + volume2 * along * along + kLengthWeight * kLengthWeight * glm::dot(step, step);
     }
     return true;
 }
 
 uint32_t cheapest(const Choices& choices) {
-    return uint32_t(std::min_element(choices.cost_m.begin(), choices.cost_m.begin() + choices.count) - choices.cost_m.begin());
+    return uint32_t(std::min_element(choices.cost2.begin(), choices.cost2.begin() + choices.count) - choices.cost2.begin());
 }
 
 }  // namespace
@@ -102,8 +103,8 @@ Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadr
         uint32_t at = cheapest(choices);
         bool is_allowed = fan_of(choices.star, position, at, fan) && keeps_groups(mesh, fan, turned) &&
                           keeps_orientation(mesh, fan) && keeps_topology(mesh, fan);
-        if (is_allowed) return {choices.cost_m[at], choices.star.link[at]};
-        choices.cost_m[at] = std::numeric_limits<double>::infinity();
+        if (is_allowed) return {std::sqrt(choices.cost2[at]), choices.star.link[at]};
+        choices.cost2[at] = std::numeric_limits<double>::infinity();
     }
     return {};
 }
@@ -112,7 +113,7 @@ Candidate guess_candidate(const WorkingMesh& mesh, std::span<const Quadric> quad
     Choices choices;
     if (!estimate(mesh, quadrics[position], position, choices)) return {};
     uint32_t at = cheapest(choices);
-    return {choices.cost_m[at], choices.star.link[at]};
+    return {std::sqrt(choices.cost2[at]), choices.star.link[at]};
 }
 
 }  // namespace overlook::caveclod

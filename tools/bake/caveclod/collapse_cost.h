@@ -28,8 +28,8 @@ struct Candidate {
     uint32_t kept = kNone;  // none is allowed
 };
 
-// The allowed collapse of `position` of least cost: root mean square distance of the kept position to the planes of what has gone
-// into `position`, and the mean signed offset of the new faces (the volume they lose or win, over their area).
+// The allowed collapse of `position` of least cost: the mean square of the kept position's distances to the planes of what has
+// gone into `position`, and the square of the mean signed offset of the new faces (the volume they lose or win, over their area).
 Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position);
 
 // The same, of all its edges, allowed or not: never dearer than find_candidate's, and several times faster found. None where the

@@ -29,7 +29,7 @@ bool is_far_corner(const Fan& fan, uint32_t position) {
 // Closed curves of three feature edges that the collapse would fold to one edge, walked there and back.
 bool folds_feature_curve(const WorkingMesh& mesh, const Fan& fan) {
     auto folds = [&](uint32_t going, uint32_t spoke_side) {
-        return mesh.is_feature[mesh.edge[spoke_side]] && mesh.is_feature[mesh.edge[fan.corner[going]]];
+        return mesh.is_feature[mesh.edge(spoke_side)] && mesh.is_feature[mesh.edge(fan.corner[going])];
     };
     uint32_t last = fan.count - 1;
     return (first_goes(fan) && folds(0, next_corner(fan.corner[0]))) ||
@@ -59,7 +59,7 @@ bool keeps_topology(const WorkingMesh& mesh, const Fan& fan) {
 bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turned) {
     if (mesh.kind[fan.gone] == PositionKind::rigid) return false;
     uint32_t last = fan.count - 1;
-    uint32_t edge = first_goes(fan) ? mesh.edge[previous_corner(fan.corner[0])] : mesh.edge[next_corner(fan.corner[last])];
+    uint32_t edge = first_goes(fan) ? mesh.edge(previous_corner(fan.corner[0])) : mesh.edge(next_corner(fan.corner[last]));
     // Across this edge, and over no other, lies the position that stays.
     if (mesh.kind[fan.gone] == PositionKind::sharp && !mesh.is_feature[edge]) return false;
     struct Pair {
@@ -68,14 +68,14 @@ bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turne
     std::array<Pair, 2> pairs;
     uint32_t count = 0;
     auto add = [&](uint32_t corner, uint32_t at_kept) {
-        pairs[count++] = {mesh.vertex[corner], mesh.vertex[at_kept], mesh.face_group[corner / kCorners]};
+        pairs[count++] = {mesh.vertex(corner), mesh.vertex(at_kept), mesh.face_group[corner / kCorners]};
     };
     if (first_goes(fan)) add(fan.corner[0], next_corner(fan.corner[0]));
     if (last_goes(fan)) add(fan.corner[last], previous_corner(fan.corner[last]));
     if (count == 2 && pairs[0].from == pairs[1].from && pairs[0].group == pairs[1].group && pairs[0].to != pairs[1].to)
         return false;
     for (uint32_t i = fan.first; i <= fan.last; ++i) {
-        uint32_t corner = fan.corner[i], group = mesh.face_group[corner / kCorners], vertex = mesh.vertex[corner];
+        uint32_t corner = fan.corner[i], group = mesh.face_group[corner / kCorners], vertex = mesh.vertex(corner);
         auto pair = std::find_if(pairs.begin(), pairs.begin() + count,
                                  [&](const Pair& p) { return p.from == vertex && p.group == group; });
         if (pair == pairs.begin() + count) return false;

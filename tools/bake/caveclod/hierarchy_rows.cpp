@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/parallel.h"
+
 namespace overlook::caveclod {
 namespace {
 
@@ -59,8 +61,8 @@ void fill_faces(const Groups& groups, const WorkingMesh& coarsest, const Numberi
     for (uint32_t old : numbering.old_face) {
         std::array<uint32_t, 3> positions;
         for (uint32_t c = 0; c < 3; ++c) {
-            positions[c] = numbering.position[coarsest.position[old * kCorners + c]];
-            h.birth_wedge.push_back(offset_of(groups, coarsest.vertex[old * kCorners + c]));
+            positions[c] = numbering.position[coarsest.position(old * kCorners + c)];
+            h.birth_wedge.push_back(offset_of(groups, coarsest.vertex(old * kCorners + c)));
         }
         h.face_positions.push_back(positions);
         h.face_group.push_back(coarsest.face_group[old]);
@@ -118,8 +120,8 @@ void reduce(const Hierarchy& h, std::vector<uint32_t>& row) {
 // Going from coarse to fine, each split needs the last one that touched any of the faces it turns; positions follow, because the
 // faces that it turns have all of them as corners, and whoever created one of these touched the face or one whose splits lead to
 // it.
-void fill_needs(Hierarchy& h) {
-    std::vector<uint32_t> touched_by(h.face_group.size(), kNone), row;
+void fill_needs(size_t face_count, Hierarchy& h) {
+    std::vector<uint32_t> touched_by(face_count, kNone), row;
     h.need_begin.push_back(0);
     for (uint32_t i = 0; i < h.split_count(); ++i) {
         row.clear();
@@ -174,10 +176,15 @@ Hierarchy make_rows(const mesh::Mesh& mesh, const Groups& groups, const WorkingM
     uint32_t added = uint32_t(std::count_if(log.turns.begin(), log.turns.end(), goes));
     h.base_face_count = uint32_t(numbering.face.size()) - added;
     for (uint32_t old : numbering.old_position) h.positions_m.push_back(coarsest.positions_m[old]);
-    fill_vertices(groups, coarsest, numbering, h);
-    fill_faces(groups, coarsest, numbering, h);
-    fill_splits(groups, log, numbering, h);
-    fill_needs(h);
+    // Each fills fields of its own.
+    parallel_ranges(3, 1, [&](size_t part, size_t) {
+        if (part == 0) {
+            fill_splits(groups, log, numbering, h);
+            fill_needs(numbering.face.size(), h);
+        }
+        if (part == 1) fill_faces(groups, coarsest, numbering, h);
+        if (part == 2) fill_vertices(groups, coarsest, numbering, h);
+    });
     h.group_surface = groups.group_surface;
     h.group_packed = groups.group_packed;
     fill_surfaces(mesh, h);

@@ -4,19 +4,26 @@
 
 #include "tools/bake/caveclod/hierarchy_rows.h"
 #include "tools/bake/caveclod/simplify_passes.h"
+#include "tools/bake/caveclod/stopwatch.h"
 
 namespace overlook::caveclod {
 
 Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, const SimplifyOptions& options,
                                   SimplifyReport* report) {
-    auto working = make_working_mesh(mesh, groups);
-    if (!working) return tl::unexpected(working.error());
     SimplifyReport counted;
+    auto working = [&] {
+        Stopwatch watch(counted.topology_s);
+        return make_working_mesh(mesh, groups);
+    }();
+    if (!working) return tl::unexpected(working.error());
     CollapseLog log;
     Passes passes(*working, counted);
     while (passes.run(options.least_face_count, log)) {
     }
-    Hierarchy hierarchy = make_rows(mesh, groups, *working, log);
+    Hierarchy hierarchy = [&] {
+        Stopwatch watch(counted.rows_s);
+        return make_rows(mesh, groups, *working, log);
+    }();
     counted.collapse_count = log.gone.size();
     counted.depth = depth_of(hierarchy);
     counted.need_count = hierarchy.needs.size();

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "formats/parallel.h"
 #include "tools/bake/caveclod/attribute_deviation.h"
+#include "tools/bake/caveclod/stopwatch.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -15,24 +16,17 @@ namespace {
 constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
 constexpr uint8_t kNothing = 0, kGuess = 1, kAllowed = 2;
 // A pass takes from the cheapest this share of all candidates; those measured worse than kWorst times its limit wait.
-constexpr double kShareOfPass = 0.4, kWorst = 2.5;
+constexpr double kShareOfPass = 0.5, kWorst = 2.5;
 // Below this share of the mesh's size errors are rounding, and all the same.
 constexpr double kLeastLimitShare = 1e-8;
 // The queue keeps costs as float: what waited must not miss its limit by their rounding.
 constexpr double kFloatAllowance = 1 + 1e-6;
 constexpr double kForbidden_m = std::numeric_limits<double>::infinity();
 
-// Adds the time that it lives to a sum.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& sum_s) : sum_s_(sum_s), begin_(std::chrono::steady_clock::now()) {}
-    ~Stopwatch() { sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-
-  private:
-    double& sum_s_;
-    std::chrono::steady_clock::time_point begin_;
-};
+// The first 16 bits of a cost (not negative): costs within one percent are alike.
+uint32_t step_of(float cost_m) {
+    return std::bit_cast<uint32_t>(cost_m) >> 16;
+}
 
 }  // namespace
 
@@ -111,7 +105,20 @@ void Passes::check_candidates() {
         }
     });
     std::erase_if(queue_, [&](const auto& entry) { return double(entry.first) > limit_m_; });
-    std::sort(queue_.begin(), queue_.end());
+    sort_queue();
+}
+
+// By steps of cost, and by position within a step.
+void Passes::sort_queue() {
+    auto by_step = [](const auto& a, const auto& b) { return step_of(a.first) < step_of(b.first); };
+    constexpr size_t kFew = 4096;
+    if (queue_.size() < kFew) return std::stable_sort(queue_.begin(), queue_.end(), by_step);
+    std::vector<uint32_t> begin((1u << 16) + 1, 0);
+    for (const auto& entry : queue_) ++begin[step_of(entry.first) + 1];
+    for (size_t step = 1; step < begin.size(); ++step) begin[step] += begin[step - 1];
+    sorted_.resize(queue_.size());
+    for (const auto& entry : queue_) sorted_[begin[step_of(entry.first)]++] = entry;
+    std::swap(queue_, sorted_);
 }
 
 void Passes::prepare(const Chosen& chosen, TurnedFan& prepared) const {
@@ -177,7 +184,7 @@ void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog
     log.error_m.push_back(error_m);
     for (uint32_t i = 0; i < fan.count; ++i) {
         bool stays = i >= fan.first && i <= fan.last;
-        log.turns.push_back({fan.corner[i], mesh_.vertex[fan.corner[i]], stays ? prepared.turned[i] : kNone});
+        log.turns.push_back({fan.corner[i], mesh_.vertex(fan.corner[i]), stays ? prepared.turned[i] : kNone});
     }
     log.turn_begin.push_back(uint32_t(log.turns.size()));
 }
@@ -226,17 +233,22 @@ void Passes::apply() {
             apply_to_map(map_, mesh_, fans_[i].fan, chosen.measured, changes_[begin / kFanGrain]);
             apply_collapse(mesh_, fans_[i].fan, fans_[i].turned);
             quadrics_[chosen.kept].add(quadrics_[chosen.gone]);
-            mark_around(chosen.kept);
+            mark_around(fans_[i].fan);
         }
     });
 }
 
-void Passes::mark_around(uint32_t position) {
+// Round the position that went, costs change; round the one that stayed, only what is allowed does.
+void Passes::mark_around(const Fan& fan) {
     Star star;
-    if (!gather_star(mesh_, position, star)) return;
-    known_[position] = kNothing;
-    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i)
-        std::atomic_ref(known_[star.link[i]]).store(kNothing, std::memory_order_relaxed);
+    for (uint32_t i = 0; i <= fan.count; ++i) std::atomic_ref(known_[fan.link[i]]).store(kNothing, std::memory_order_relaxed);
+    if (!gather_star(mesh_, fan.kept, star)) return;
+    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) {
+        uint8_t least = candidates_[star.link[i]].kept == kNone ? kNothing : kGuess;
+        std::atomic_ref known(known_[star.link[i]]);
+        for (uint8_t now = known.load(std::memory_order_relaxed); now > least;)
+            if (known.compare_exchange_weak(now, least, std::memory_order_relaxed)) break;
+    }
 }
 
 }  // namespace overlook::caveclod

@@ -36,6 +36,7 @@ class Passes {
     void guess_candidates();
     void raise_limit();
     void check_candidates();
+    void sort_queue();
     void select(uint64_t least_face_count);
     bool claim(uint32_t gone, uint32_t kept);
     void prepare(const Chosen& chosen, TurnedFan& prepared) const;
@@ -44,7 +45,7 @@ class Passes {
     void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const;
     void provide_crossings();
     void apply();
-    void mark_around(uint32_t position);
+    void mark_around(const Fan& fan);
 
     WorkingMesh& mesh_;
     SimplifyReport& report_;
@@ -59,7 +60,7 @@ class Passes {
     std::vector<uint32_t> touched_in_, target_in_;  // [P] the last pass that changed the position's star, or collapsed into it
     uint32_t pass_ = 0, next_fan_ = 0;
     std::vector<float> costs_;
-    std::vector<std::pair<float, uint32_t>> queue_;
+    std::vector<std::pair<float, uint32_t>> queue_, sorted_;
     std::vector<Chosen> chosen_;
     std::vector<TurnedFan> fans_;      // of chosen_
     std::vector<MapChanges> changes_;  // one for each block of chosen_

@@ -11,7 +11,7 @@ uint32_t spoke_count(const Fan& fan) {
 }
 
 uint32_t spoke_edge(const WorkingMesh& mesh, const Fan& fan, uint32_t place) {
-    return place < fan.count ? mesh.edge[previous_corner(fan.corner[place])] : mesh.edge[next_corner(fan.corner[place - 1])];
+    return place < fan.count ? mesh.edge(previous_corner(fan.corner[place])) : mesh.edge(next_corner(fan.corner[place - 1]));
 }
 
 // The corner that faces link edge `place` once the collapse is made.
@@ -26,24 +26,24 @@ uint32_t corner_at_new_border(const Fan& fan) {
 }
 
 uint32_t new_label(const SurfaceMap& map, const Fan& fan, uint32_t position, uint32_t place) {
-    uint32_t slot = map.label[position] == kNone ? (fan.is_closed ? 3u : kNone) : map.label[position] & 3u;
+    uint32_t slot = map.points[position].label == kNone ? (fan.is_closed ? 3u : kNone) : map.points[position].label & 3u;
     if (slot == 3) return (fan.corner[map.placement[position].place] | 3u);
     bool is_on_link = slot != kNone && slot == (fan.corner[place] & 3u);
     return is_on_link ? corner_at_link_edge(fan, place) : corner_at_new_border(fan);
 }
 
 void put_in_face(SurfaceMap& map, uint32_t position, uint32_t label) {
-    map.label[position] = label;
-    map.next_in_face[position] = std::exchange(map.first_in_face[label / kCorners], position);
+    map.points[position].label = label;
+    map.points[position].next_in_face = std::exchange(map.first_in_face[label / kCorners], position);
 }
 
 void relabel(SurfaceMap& map, const Fan& fan, std::vector<uint32_t>& inside) {
     inside.clear();
     for (uint32_t i = 0; i < fan.count; ++i) {
         uint32_t v = std::exchange(map.first_in_face[fan.corner[i] / kCorners], kNone);
-        for (; v != kNone; v = map.next_in_face[v]) inside.push_back(v), map.label[v] = new_label(map, fan, v, i);
+        for (; v != kNone; v = map.points[v].next_in_face) inside.push_back(v), map.points[v].label = new_label(map, fan, v, i);
     }
-    for (uint32_t v : inside) put_in_face(map, v, map.label[v]);
+    for (uint32_t v : inside) put_in_face(map, v, map.points[v].label);
     put_in_face(map, fan.gone, new_label(map, fan, fan.gone, 0));
 }
 
@@ -78,21 +78,19 @@ void fill_stars(SurfaceMap& map) {
 SurfaceMap make_surface_map(const WorkingMesh& mesh) {
     SurfaceMap map;
     size_t position_count = mesh.some_corner.size(), edge_count = mesh.edge_corners.size(), face_count = mesh.face_count();
-    map.positions_m = mesh.positions_m;
+    map.points.resize(position_count);
+    for (size_t p = 0; p < position_count; ++p) map.points[p].at_m = mesh.positions_m[p];
     for (auto [corner, other] : mesh.edge_corners)
-        map.ends.push_back({mesh.position[next_corner(corner)], mesh.position[previous_corner(corner)]});
+        map.ends.push_back({mesh.position(next_corner(corner)), mesh.position(previous_corner(corner))});
     map.star_begin.assign(position_count + 1, 0);
     fill_stars(map);
-    map.area_vector_m2.assign(position_count, glm::vec3(0));
     for (uint32_t f = 0; f < face_count; ++f) {
-        const uint32_t* p = &mesh.position[f * kCorners];
+        const auto& p = mesh.faces[f].position;
         glm::vec3 area(glm::cross(mesh.at(p[1]) - mesh.at(p[0]), mesh.at(p[2]) - mesh.at(p[0])) / 3.0);
-        for (int c = 0; c < 3; ++c) map.area_vector_m2[p[c]] += area;
+        for (size_t c = 0; c < 3; ++c) map.points[p[c]].area_vector_m2 += area;
     }
     map.first_on_source.assign(edge_count, kNone);
     map.first_on_cut.assign(edge_count, kNone);
-    map.label.assign(position_count, kNone);
-    map.next_in_face.assign(position_count, kNone);
     map.placement.assign(position_count, {});
     map.first_in_face.assign(face_count, kNone);
     map.fan_of_face.assign(face_count, kNone);

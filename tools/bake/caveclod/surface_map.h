@@ -36,25 +36,30 @@ struct SourceEnd {
     uint32_t edge = kNone, other = kNone;
 };
 
+// A position of the source, with what is always needed with it in half a line of memory.
+struct alignas(32) MapPoint {
+    glm::vec3 at_m{0};
+    // face * kCorners + 3 inside a face, + 0, 1 or 2 on the border edge that faces this corner; kNone: has not gone
+    uint32_t label = kNone;
+    glm::vec3 area_vector_m2{0};  // a third of the source's faces round it, times 2
+    uint32_t next_in_face = kNone;
+};
+
 struct alignas(8) Placement {
     uint32_t fan = kNone, place = 0;
 };
 
 struct SurfaceMap {
-    std::span<const glm::vec3> positions_m;     // [P]
+    std::vector<MapPoint> points;               // [P]
     std::vector<std::array<uint32_t, 2>> ends;  // [E] positions of each source edge
     std::vector<uint32_t> star_begin;           // [P + 1] rows over `star`
     std::vector<SourceEnd> star;                // [2E] the source edges at each position
-    std::vector<glm::vec3> area_vector_m2;      // [P] a third of the source's faces at each position, times 2
     std::vector<uint32_t> first_on_source;      // [E] the crossings of each source edge, in order
     std::vector<uint32_t> first_on_cut;         // [E] those of each simplified edge, in any
     std::vector<Crossing> crossings;
-    // [P] face * kCorners + 3 inside a face, + 0, 1 or 2 on the border edge that faces this corner; kNone: has not gone
-    std::vector<uint32_t> label;
-    std::vector<uint32_t> first_in_face;  // [F] positions of each face,
-    std::vector<uint32_t> next_in_face;   // [P] and which come next
-    // Written while collapses are measured: whose fan each face is in, its number there; the last fan that each position was in, and
-    // which of its faces would have the position afterwards.
+    std::vector<uint32_t> first_in_face;  // [F] positions of each face
+    // Written while collapses are measured: whose fan each face is in, its number there; the last fan that each position was in,
+    // and which of its faces would have the position afterwards.
     std::vector<uint32_t> fan_of_face;  // [F]
     std::vector<uint8_t> place_in_fan;  // [F]
     std::vector<Placement> placement;   // [P]

@@ -34,7 +34,7 @@ class FanMeasure {
     }
 
   private:
-    glm::dvec3 at(uint32_t p) const { return glm::dvec3(map_.positions_m[p]); }
+    glm::dvec3 at(uint32_t p) const { return glm::dvec3(map_.points[p].at_m); }
     // Other fans' positions may be placed at the same time.
     Placement placement_of(uint32_t p) const { return std::atomic_ref(map_.placement[p]).load(std::memory_order_relaxed); }
     bool is_in_fan(uint32_t face) const { return map_.fan_of_face[face] == number_; }
@@ -53,12 +53,12 @@ class FanMeasure {
         for (uint32_t i = 0; i < fan_.count; ++i) {
             uint32_t face = fan_.corner[i] / kCorners;
             map_.place_in_fan[face] = uint8_t(i);
-            for (uint32_t v = map_.first_in_face[face]; v != kNone; v = map_.next_in_face[v]) place_position(v, i);
+            for (uint32_t v = map_.first_in_face[face]; v != kNone; v = map_.points[v].next_in_face) place_position(v, i);
         }
     }
 
     void place_position(uint32_t v, uint32_t face) {
-        uint32_t slot = map_.label[v] & 3u;
+        uint32_t slot = map_.points[v].label & 3u;
         if (slot == 3) return place_inside(v, fan_.nearest_staying(face));
         if (slot != (fan_.corner[face] & 3u)) return place_on_border(v);
         place(v, fan_.nearest_staying(face), 0);
@@ -98,13 +98,13 @@ class FanMeasure {
     void place(uint32_t v, uint32_t sector, double distance2) {
         changes_.inside.push_back(v);
         std::atomic_ref(map_.placement[v]).store(Placement{number_, sector}, std::memory_order_relaxed);
-        area_vectors_[sector] += glm::dvec3(map_.area_vector_m2[v]);
+        area_vectors_[sector] += glm::dvec3(map_.points[v].area_vector_m2);
         greatest2_ = std::max(greatest2_, distance2);
     }
 
     // Against what the source's positions in the face, and in part those at its corners, have round them.
     bool faces_its_source() const {
-        auto around = [&](uint32_t p) { return glm::dvec3(map_.area_vector_m2[p]); };
+        auto around = [&](uint32_t p) { return glm::dvec3(map_.points[p].area_vector_m2); };
         for (uint32_t i = fan_.first; i <= fan_.last; ++i) {
             glm::dvec3 corners = around(fan_.kept) + around(fan_.link[i]) + around(fan_.link[i + 1]);
             glm::dvec3 region = area_vectors_[i] + corners * kShareOfCorner, normal = probes_[i].normal;
@@ -127,7 +127,7 @@ class FanMeasure {
             }
         }
         for (uint32_t place = 0; place < fan_.count; ++place) {
-            uint32_t spoke = mesh_.edge[previous_corner(fan_.corner[place])];
+            uint32_t spoke = mesh_.edge(previous_corner(fan_.corner[place]));
             for (uint32_t c = map_.first_on_cut[spoke]; c != kNone; c = map_.crossings[c].next_on_cut) {
                 uint32_t edge = map_.crossings[c].source_edge;
                 bool has_end_inside =
@@ -169,7 +169,7 @@ class FanMeasure {
 
     bool begins_inside(uint32_t a, uint32_t b, uint32_t first) const {
         if (placement_of(a).fan == number_) return true;
-        if (map_.label[a] != kNone) return false;
+        if (map_.points[a].label != kNone) return false;
         uint32_t face = kNone;
         return first == kNone ? placement_of(b).fan == number_ : faces_in_fan(map_.crossings[first].cut_edge, face) == 2;
     }

@@ -17,9 +17,9 @@ void leave_face(WorkingMesh& mesh, uint32_t position, uint32_t face, uint32_t co
 }
 
 void join(WorkingMesh& mesh, uint32_t corner, uint32_t outer, uint32_t edge) {
-    mesh.opposite[corner] = outer;
-    mesh.edge[corner] = edge;
-    if (outer != kNone) mesh.opposite[outer] = corner;
+    mesh.opposite(corner) = outer;
+    mesh.edge(corner) = edge;
+    if (outer != kNone) mesh.opposite(outer) = corner;
     mesh.edge_corners[edge] = {corner, outer};
 }
 
@@ -29,18 +29,18 @@ void drop_face(WorkingMesh& mesh, const Fan& fan, uint32_t going, uint32_t neigh
     bool is_first = going < neighbour;
     uint32_t corner = fan.corner[going], inner = fan.corner[neighbour];
     uint32_t side = is_first ? previous_corner(inner) : next_corner(inner);  // faces the edge that the two have in common
-    uint32_t lost = mesh.edge[side], stays = mesh.edge[corner];
+    uint32_t lost = mesh.edge(side), stays = mesh.edge(corner);
     mesh.is_feature[stays] = uint8_t(mesh.is_feature[stays] | mesh.is_feature[lost]);
     uint32_t far = is_first ? next_corner(inner) : previous_corner(inner);
-    leave_face(mesh, mesh.position[far], corner / kCorners, far);
+    leave_face(mesh, mesh.position(far), corner / kCorners, far);
     leave_face(mesh, fan.kept, corner / kCorners, inner);
-    join(mesh, side, mesh.opposite[corner], stays);
+    join(mesh, side, mesh.opposite(corner), stays);
 }
 
 // The first face of an open star: the one from whose border edge the others follow counter-clockwise.
 uint32_t first_of_open(const WorkingMesh& mesh, uint32_t corner) {
-    for (uint32_t across = mesh.opposite[previous_corner(corner)]; across != kNone;
-         across = mesh.opposite[previous_corner(corner)])
+    for (uint32_t across = mesh.opposite(previous_corner(corner)); across != kNone;
+         across = mesh.opposite(previous_corner(corner)))
         corner = previous_corner(across);
     return corner;
 }
@@ -61,15 +61,13 @@ std::vector<mesh::Corners> renumber(const mesh::Mesh& mesh, WorkingMesh& made) {
 }
 
 void fill_corners(std::span<const mesh::Corners> faces, const Groups& groups, WorkingMesh& made) {
-    made.position.assign(made.edge.size(), kNone);
-    made.vertex = made.position;
     made.some_corner.assign(made.positions_m.size(), kNone);
     for (uint32_t source : made.source_position) made.kind.push_back(groups.kind[source]);
     for (uint32_t f = 0; f < faces.size(); ++f) {
         made.face_group.push_back(groups.face_group[made.source_face[f]]);
         for (uint32_t c = 0; c < 3; ++c) {
-            made.position[f * kCorners + c] = faces[f][c];
-            made.vertex[f * kCorners + c] = groups.face_vertices[made.source_face[f]][c];
+            made.position(f * kCorners + c) = faces[f][c];
+            made.vertex(f * kCorners + c) = groups.face_vertices[made.source_face[f]][c];
             made.some_corner[faces[f][c]] = f * kCorners + c;
         }
     }
@@ -79,8 +77,8 @@ void fill_features(const Groups& groups, WorkingMesh& made) {
     made.is_feature.assign(made.edge_corners.size(), 0);
     for (size_t e = 0; e < made.edge_corners.size(); ++e) {
         uint32_t corner = made.edge_corners[e][0];
-        uint32_t a = made.source_position[made.position[next_corner(corner)]];
-        uint32_t b = made.source_position[made.position[previous_corner(corner)]];
+        uint32_t a = made.source_position[made.position(next_corner(corner))];
+        uint32_t b = made.source_position[made.position(previous_corner(corner))];
         auto begin = groups.feature_ends.begin() + groups.feature_begin[a],
              end = groups.feature_ends.begin() + groups.feature_begin[a + 1];
         made.is_feature[e] = made.edge_corners[e][1] == kNone || std::find(begin, end, b) != end;
@@ -95,14 +93,14 @@ bool gather_star(const WorkingMesh& mesh, uint32_t position, Star& star) {
     while (true) {
         if (star.count == kMostValence) return false;
         star.corner[star.count] = corner;
-        star.link[star.count++] = mesh.position[next_corner(corner)];
-        uint32_t across = mesh.opposite[next_corner(corner)];
+        star.link[star.count++] = mesh.position(next_corner(corner));
+        uint32_t across = mesh.opposite(next_corner(corner));
         if (across == kNone && star.is_closed) {
             star.is_closed = false, star.count = 0;
             begin = corner = first_of_open(mesh, begin);
             continue;
         }
-        star.link[star.count] = mesh.position[previous_corner(corner)];
+        star.link[star.count] = mesh.position(previous_corner(corner));
         if (across == kNone) return true;
         corner = next_corner(across);
         if (corner == begin) return true;
@@ -132,11 +130,16 @@ Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& grou
     std::vector<mesh::Corners> faces = renumber(mesh, made);
     auto topology = find_topology(mesh.positions_m.size(), faces);
     if (!topology) return bad_input("face {} {}", made.source_face[topology.error().face], topology.error().why);
-    made.edge = std::move(topology->edge);
-    made.opposite = std::move(topology->opposite);
+    made.faces.resize(faces.size());
+    for (uint32_t f = 0; f < faces.size(); ++f) {
+        std::copy_n(topology->edge.begin() + f * kCorners, kCorners, made.faces[f].edge.begin());
+        std::copy_n(topology->opposite.begin() + f * kCorners, kCorners, made.faces[f].opposite.begin());
+    }
     made.edge_corners = std::move(topology->edge_corners);
     made.render_vertices = groups.vertices;
     fill_corners(faces, groups, made);
+    for (uint32_t p = 0; p < made.some_corner.size(); ++p)
+        if (made.some_corner[p] == kNone) return bad_input("position {} is no corner of any face", made.source_position[p]);
     fill_features(groups, made);
     return made;
 }
@@ -145,8 +148,8 @@ void apply_collapse(WorkingMesh& mesh, const Fan& fan, std::span<const uint32_t>
     if (fan.first == 1) drop_face(mesh, fan, 0, 1);
     if (fan.last + 2 == fan.count) drop_face(mesh, fan, fan.count - 1, fan.last);
     for (uint32_t i = fan.first; i <= fan.last; ++i) {
-        mesh.position[fan.corner[i]] = fan.kept;
-        mesh.vertex[fan.corner[i]] = vertex_at_kept[i];
+        mesh.position(fan.corner[i]) = fan.kept;
+        mesh.vertex(fan.corner[i]) = vertex_at_kept[i];
     }
     mesh.some_corner[fan.gone] = kNone;
 }

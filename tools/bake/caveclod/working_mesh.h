@@ -28,14 +28,19 @@ inline uint32_t previous_corner(uint32_t corner) {
     return (corner & 3u) == 0 ? corner + 2 : corner - 1;
 }
 
+// All that is known of a face, in one line of memory: walking round a position costs one for each face.
+struct alignas(64) WorkingFace {
+    std::array<uint32_t, 4> position;  // of each corner; the fourth is not used, here and below
+    std::array<uint32_t, 4> vertex;    // render vertex of each corner
+    std::array<uint32_t, 4> opposite;  // the corner across the edge that faces each one; kNone at borders
+    std::array<uint32_t, 4> edge;      // the edge that faces each corner
+};
+
 // Positions and faces are numbered in a spatial order of its own (spatial_order.h).
 struct WorkingMesh {
     std::vector<uint32_t> source_position, source_face;  // [P], [F] numbers in the mesh that it was made of
     std::vector<glm::vec3> positions_m;                  // [P]
-    std::vector<uint32_t> position;                      // [4F] of each corner; those of faces that went stay as they were
-    std::vector<uint32_t> vertex;                        // [4F] render vertex of each corner
-    std::vector<uint32_t> opposite;                      // [4F] the corner across the edge that faces this one; kNone at borders
-    std::vector<uint32_t> edge;                          // [4F] the edge that faces each corner
+    std::vector<WorkingFace> faces;                      // [F] those that went stay as they were
     std::vector<std::array<uint32_t, 2>> edge_corners;   // [E] the corners that an edge faces; the second kNone at borders
     std::vector<uint8_t> is_feature;                     // [E]
     std::vector<uint32_t> some_corner;                   // [P] one corner at each position; kNone when the position went
@@ -44,7 +49,15 @@ struct WorkingMesh {
 
     std::span<const RenderVertex> render_vertices;  // of the groups
 
-    size_t face_count() const { return position.size() / kCorners; }
+    size_t face_count() const { return faces.size(); }
+    uint32_t& position(uint32_t corner) { return faces[corner / kCorners].position[corner % kCorners]; }
+    uint32_t position(uint32_t corner) const { return faces[corner / kCorners].position[corner % kCorners]; }
+    uint32_t& vertex(uint32_t corner) { return faces[corner / kCorners].vertex[corner % kCorners]; }
+    uint32_t vertex(uint32_t corner) const { return faces[corner / kCorners].vertex[corner % kCorners]; }
+    uint32_t& opposite(uint32_t corner) { return faces[corner / kCorners].opposite[corner % kCorners]; }
+    uint32_t opposite(uint32_t corner) const { return faces[corner / kCorners].opposite[corner % kCorners]; }
+    uint32_t& edge(uint32_t corner) { return faces[corner / kCorners].edge[corner % kCorners]; }
+    uint32_t edge(uint32_t corner) const { return faces[corner / kCorners].edge[corner % kCorners]; }
     bool is_alive(uint32_t p) const { return some_corner[p] != kNone; }
     glm::dvec3 at(uint32_t p) const { return glm::dvec3(positions_m[p]); }
 };
@@ -71,8 +84,8 @@ struct Fan : Star {
 // star: of `gone`, with link[at] the position that stays. False if an open star would not be collapsed along its border.
 bool fan_of(const Star& star, uint32_t gone, uint32_t at, Fan& fan);
 
-// Makes the arrays. Fails with Exit::bad_input where the mesh is not what Mesh promises: "face 12 cannot be added: its edges have
-// two faces already, or its faces do not form one fan at a corner".
+// Makes the arrays. Fails with Exit::bad_input where the mesh is not what Mesh promises: "face 12 cannot be added: an edge of it
+// has two faces already, or the faces at a corner are no fan", "position 7 is no corner of any face".
 Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& groups);
 
 // Takes `fan.gone` away. `vertex_at_kept`[i] is the render vertex of face i's turned corner. Writes only to what belongs to the
