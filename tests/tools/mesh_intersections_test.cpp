@@ -25,7 +25,7 @@ TEST(SelfIntersection, FacesThatRepairCutApartAreNeighboursStill) {
 TEST(SelfIntersection, RealMeshesHaveTheirs) {
     OVERLOOK_NEED_DATA(data_file("mesh"));
     EXPECT_EQ(self_intersection_count(open_whole(data_file("mesh/armadillo.obj")).mesh), 0u);
-    // Another tool counts 64,765 pairs in the file as it is, before positions are welded and neighbours left out.
+    // The data's README has 64,765 pairs, counted by another tool in the mesh as it stands in the file.
     const uint64_t count = self_intersection_count(open_whole(data_file("mesh/cycloidal.ply")).mesh);
     EXPECT_GT(count, 50'000u);
     EXPECT_LE(count, 64'765u);

@@ -116,6 +116,13 @@ TEST(ObjMesh, LibraryOutsideTheFolderIsNotOpened) {
     EXPECT_EQ(mesh.mesh.surfaces[0].base_colour, glm::vec4(1));
 }
 
+TEST(ObjMesh, CommentsMayEndALineAndBackslashesJoinLines) {
+    const ScratchFolder folder;
+    const MeshFile mesh =
+        open_whole(write_file(folder, "a.obj", "v 0 0 0 # one\r\nv 1 \\\n0 0\nv 0 1 0\nf 1 2 \\\n3 # a face\n"));
+    EXPECT_EQ(mesh.report.face_count, 1u);
+}
+
 TEST(ObjMesh, NamesTheLineOfEachMistake) {
     const ScratchFolder folder;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -197,6 +204,15 @@ TEST(StlMesh, RefusesEveryTruncationOfABinaryFile) {
     const std::string whole = binary_stl({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}, "two");
     for (size_t length = 0; length < whole.size(); ++length)
         expect_refused(write_file(folder, "a.stl", whole.substr(0, length)), Exit::bad_input, "");
+}
+
+TEST(StlMesh, AsciiMayBeInCapitals) {
+    const ScratchFolder folder;
+    EXPECT_EQ(open_whole(write_file(folder, "a.stl",
+                                    "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\n"
+                                    "ENDFACET\nENDSOLID\n"))
+                  .report.face_count,
+              1u);
 }
 
 TEST(StlMesh, AsciiThatEndsWithinAFacetIsRefused) {

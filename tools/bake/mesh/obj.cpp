@@ -49,7 +49,8 @@ class ObjReader {
         double values[7] = {};
         int count = 0;
         while (count < 7 && text_.number(values[count])) ++count;
-        if (count < 3 || !text_.is_at_line_end()) return mistake("a vertex is three numbers, or six with its colour");
+        const bool has_ended = text_.is_at_line_end() || text_.peek() == '#';
+        if (count < 3 || !has_ended) return mistake("a vertex is three numbers, or six with its colour");
         soup_.positions.emplace_back(values[0], values[1], values[2]);
         if (count >= 6) {
             colours_.resize(soup_.positions.size() - 1, {1, 1, 1, 1});

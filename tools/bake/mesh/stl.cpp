@@ -1,6 +1,7 @@
 // STL files. Source: 3D Systems, "StereoLithography Interface Specification", 1988. Facet normals are not read: they say nothing
 // that the corners do not, and many writers leave them zero.
 
+#include <algorithm>
 #include <bit>
 
 #include "formats/little_endian.h"
@@ -43,6 +44,13 @@ Result<Soup> read_binary(const InputFile& file, uint32_t count) {
     return soup;
 }
 
+std::string lower_case(std::string_view word) {
+    std::string lower(word);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return lower;
+}
+
 // "facet normal 0 0 1 / outer loop / vertex x y z (three or more times) / endloop / endfacet", in any number of solids.
 class AsciiReader {
   public:
@@ -52,7 +60,7 @@ class AsciiReader {
         soup_.report.form = "STL ascii";
         soup_.mesh.surfaces.resize(1);
         for (; text_.find_line('\0'); text_.next_line()) {
-            if (auto r = read_line(text_.word()); !r) return tl::unexpected(r.error());
+            if (auto r = read_line(lower_case(text_.word())); !r) return tl::unexpected(r.error());
         }
         if (has_loop_) return mistake("ends within a facet; was the file cut short?");
         if (in_solid_) return mistake("ends without endsolid; was the file cut short?");
@@ -103,9 +111,8 @@ class AsciiReader {
 Result<Soup> read_stl(const InputFile& file) {
     const size_t size = file.bytes.size();
     const std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), size);
-    const bool is_named_solid =
-        text.substr(text.find_first_not_of(" \t\r\n") == std::string_view::npos ? 0 : text.find_first_not_of(" \t\r\n"))
-            .starts_with("solid");
+    const size_t begin = std::min(text.find_first_not_of(" \t\r\n"), size);
+    const bool is_named_solid = lower_case(text.substr(begin, 5)) == "solid";
     const uint32_t count = size >= kHeaderBytes ? load_le<uint32_t>(file.bytes, kCountAt) : 0;
     const bool has_binary_length = size >= kHeaderBytes && size == kHeaderBytes + uint64_t(kFacetBytes) * count;
     if (has_binary_length) return read_binary(file, count);
