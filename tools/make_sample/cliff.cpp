@@ -36,13 +36,13 @@ double wall_width_m(uint64_t seed, double x_m) {
 
 double high_ground_m(uint64_t seed, double x_m, double south_m) {
     double hills = ridged_noise(seed + 10, x_m / 17'000, south_m / 17'000, 5);
-    return 1080 + 420 * smooth_step(0, 20'000, rim_south_m(seed, x_m) - south_m) * hills +
+    return 1480 + 420 * smooth_step(0, 20'000, rim_south_m(seed, x_m) - south_m) * hills +
            70 * km_noise(seed + 11, x_m, south_m, 4'000, 4);
 }
 
 double low_ground_m(uint64_t seed, double x_m, double south_m) {
     double from_foot_m = south_m - rim_south_m(seed, x_m) - wall_width_m(seed, x_m);
-    double hills = 150 * km_noise(seed + 20, x_m, south_m, 11'000, 5) * smooth_step(0, 9'000, from_foot_m);
+    double hills = 210 * km_noise(seed + 20, x_m, south_m, 11'000, 5) * smooth_step(0, 9'000, from_foot_m);
     double fan = 1 - smooth_step(0, 2'600 + 1'200 * km_noise(seed + 21, x_m, 0, 2'600, 2), from_foot_m);
     return 260 + hills + 260 * fan * fan;
 }
