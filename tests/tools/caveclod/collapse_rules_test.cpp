@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #pragma GCC diagnostic push
@@ -36,7 +37,13 @@ Reference reference_of(const mesh::Mesh& mesh) {
     return reference;
 }
 
-bool gather_fan(const WorkingMesh& mesh, uint32_t gone, uint32_t kept, Fan& fan) {
+uint32_t working_number(const WorkingMesh& mesh, uint32_t source) {
+    return uint32_t(std::find(mesh.source_position.begin(), mesh.source_position.end(), source) - mesh.source_position.begin());
+}
+
+// gone, kept: numbers in the mesh that the working one was made of.
+bool gather_fan(const WorkingMesh& mesh, uint32_t source_gone, uint32_t source_kept, Fan& fan) {
+    uint32_t gone = working_number(mesh, source_gone), kept = working_number(mesh, source_kept);
     Star star;
     if (!gather_star(mesh, gone, star)) return false;
     uint32_t at = 0;
@@ -103,7 +110,7 @@ std::unique_ptr<Made> make(mesh::Mesh mesh, double crease_deg) {
 TEST(CollapseRules, LetSharpPositionsMoveAlongTheirFeatureOnly) {
     auto cube = make(test::cube(4), 40);
     size_t along = 0, across = 0;
-    for (uint32_t gone = 0; gone < cube->mesh.positions_m.size(); ++gone) {
+    for (uint32_t gone = 0; gone < cube->working.positions_m.size(); ++gone) {
         Star star;
         ASSERT_TRUE(gather_star(cube->working, gone, star));
         for (uint32_t at = 0; at < star.count; ++at) {
@@ -112,10 +119,10 @@ TEST(CollapseRules, LetSharpPositionsMoveAlongTheirFeatureOnly) {
             ASSERT_TRUE(fan_of(star, gone, at, fan));
             bool is_allowed = keeps_groups(cube->working, fan, turned);
             auto on_rim = [&](uint32_t p) {
-                glm::vec3 v = cube->mesh.positions_m[p];
+                glm::vec3 v = cube->working.positions_m[p];
                 return int(v.x == 0 || v.x == 1) + int(v.y == 0 || v.y == 1) + int(v.z == 0 || v.z == 1);
             };
-            glm::vec3 step = cube->mesh.positions_m[fan.kept] - cube->mesh.positions_m[gone];
+            glm::vec3 step = cube->working.positions_m[fan.kept] - cube->working.positions_m[gone];
             bool is_straight = int(step.x != 0) + int(step.y != 0) + int(step.z != 0) == 1;
             // Corners of the cube stay; along a rim only the rim's own positions are reached; inside a side everything is free.
             bool should_be = on_rim(gone) == 1 || (on_rim(gone) == 2 && is_straight && on_rim(fan.kept) >= 2);
