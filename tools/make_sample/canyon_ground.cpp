@@ -28,9 +28,11 @@ double river_south(uint64_t seed, double east) {
 
 double plateau_m(uint64_t seed, double east, double south) {
     double dome = smooth_step(-0.35, 0.5, fractal_noise(seed + 3, east * 2.3, south * 2.3, 2));
-    double off_km = std::abs(south - river_south(seed, east)) * kCanyon.width_m / 1000;
-    double rough = 190 * fractal_noise(seed + 4, east * 11, south * 11, 5), rim = 260 * (1 - smooth_step(0, 0.10, east));
-    return 1380 + 520 * dome + 3.5 * off_km + 120 * east + rim + rough;
+    // The slopes towards the river bend, so that brooks do not run side by side.
+    double bent = south + 0.11 * fractal_noise(seed + 8, east * 5, south * 5, 3);
+    double off_km = std::abs(bent - river_south(seed, east)) * kCanyon.width_m / 1000;
+    double rough = 80 * fractal_noise(seed + 4, east * 11, south * 11, 5), rim = 260 * (1 - smooth_step(0, 0.10, east));
+    return 1350 + 520 * dome + 5 * off_km + 120 * east + rim + rough;
 }
 
 // Steep where rock is hard, level where it is soft, in the canyon alone.

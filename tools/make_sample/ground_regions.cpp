@@ -41,10 +41,12 @@ uint32_t ground_bordered_most(const MeshGrid& grid, std::span<const uint32_t> fa
     return most == edges.end() ? surface[faces.front()] : most->first;
 }
 
-// The faces round a position within a number of cells, and which of n sectors each lies in: sectors are equal shares of the six
-// faces at the position itself, followed outward along the grid's three directions.
+// The faces round a position within a number of cells, as offsets from the first face of the cell south-east of it, and which of
+// n sectors each lies in: sectors are equal shares of the six faces at the position itself, followed outward along the grid's
+// three directions.
 struct Rosette {
-    std::vector<uint32_t> faces, sectors;
+    std::vector<int64_t> offsets;
+    std::vector<uint32_t> sectors;
 };
 
 // Which of the six faces at the position points towards (x, y) in cells east and south of it: between the directions of the
@@ -56,24 +58,18 @@ uint32_t sixth_towards(double x, double y) {
     return 5;
 }
 
-Rosette rosette(const MeshGrid& grid, uint32_t column, uint32_t row, double radius, size_t sector_count) {
+Rosette rosette(const MeshGrid& grid, double radius, size_t sector_count) {
     Rosette made;
     int reach = int(radius) + 1;
     for (int dy = -reach; dy < reach; ++dy)
         for (int dx = -reach; dx < reach; ++dx)
-            for (uint32_t half = 0; half < 2; ++half) {
+            for (int half = 0; half < 2; ++half) {
                 double x = dx + (half == 0 ? 1.0 : 2.0) / 3, y = dy + (half == 0 ? 2.0 : 1.0) / 3;
                 if (x * x + y * y > radius * radius) continue;
-                made.faces.push_back(2 * ((row + uint32_t(dy)) * (grid.columns - 1) + column + uint32_t(dx)) + half);
+                made.offsets.push_back(2 * (int64_t(dy) * (grid.columns - 1) + dx) + half);
                 made.sectors.push_back(uint32_t(sixth_towards(x, y) * sector_count / 6));
             }
     return made;
-}
-
-size_t count_kept(const Rosette& at, std::span<const uint32_t> surfaces, std::span<const uint32_t> surface) {
-    size_t kept = 0;
-    for (size_t i = 0; i < at.faces.size(); ++i) kept += surface[at.faces[i]] == surfaces[at.sectors[i]];
-    return kept;
 }
 
 }  // namespace
@@ -106,17 +102,21 @@ void drop_islands(const MeshGrid& grid, uint32_t least_count, std::vector<uint32
 uint32_t make_meeting(const MeshGrid& grid, std::span<const uint32_t> surfaces, double radius_cells, uint32_t first_row,
                       std::vector<uint32_t>& surface) {
     uint32_t margin = uint32_t(3 * radius_cells) + 2, best_column = margin, best_row = margin;
+    Rosette round = rosette(grid, radius_cells, surfaces.size());
+    auto first_face = [&](uint32_t column, uint32_t row) { return 2 * (int64_t(row) * (grid.columns - 1) + column); };
     size_t best_kept = 0;
     for (uint32_t row = std::max(margin, first_row); row + margin < grid.rows; ++row)
         for (uint32_t column = margin; column + margin < grid.columns; ++column) {
-            size_t kept = count_kept(rosette(grid, column, row, radius_cells, surfaces.size()), surfaces, surface);
+            const uint32_t* here = &surface[size_t(first_face(column, row))];
+            size_t kept = 0;
+            for (size_t i = 0; i < round.offsets.size(); ++i) kept += here[round.offsets[i]] == surfaces[round.sectors[i]];
             if (kept <= best_kept) continue;
             best_kept = kept;
             best_column = column;
             best_row = row;
         }
-    Rosette made = rosette(grid, best_column, best_row, radius_cells, surfaces.size());
-    for (size_t i = 0; i < made.faces.size(); ++i) surface[made.faces[i]] = surfaces[made.sectors[i]];
+    for (size_t i = 0; i < round.offsets.size(); ++i)
+        surface[size_t(first_face(best_column, best_row) + round.offsets[i])] = surfaces[round.sectors[i]];
     return grid.index(best_column, best_row);
 }
 
