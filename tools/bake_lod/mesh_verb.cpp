@@ -34,11 +34,11 @@ Result<void> check_output(const MeshArgs& args) {
 Result<uint64_t> write_file(const MeshArgs& args, const caveclod::Hierarchy& hierarchy, const mesh::MeshReport& input) {
     container::Provenance provenance{
         kName, command::version(), mesh::options_in_words(args.choices), {{input.source_name, input.source_hash}}};
-    bool is_draco = args.codec == "draco";
-    if (is_draco) provenance.options.emplace_back("codec", args.codec);
+    caveclod::Codec codec = args.codec == "draco" ? caveclod::Codec::draco : caveclod::Codec::meshopt;
+    if (codec != caveclod::kDefaultCodec) provenance.options.emplace_back("codec", args.codec);
     auto writer = container::Writer::create(args.output, caveclod::kKind);
     if (!writer) return tl::unexpected(writer.error());
-    auto written = caveclod::write(*writer, hierarchy, is_draco ? caveclod::Codec::draco : caveclod::Codec::meshopt);
+    auto written = caveclod::write(*writer, hierarchy, codec);
     if (!written) return tl::unexpected(written.error());
     if (auto added = writer->add_provenance(provenance); !added) return tl::unexpected(added.error());
     return writer->commit();

@@ -11,7 +11,7 @@ namespace overlook::bake_lod {
 struct MeshArgs {
     std::string mesh;
     std::string output;
-    std::string codec = "meshopt";
+    std::string codec = caveclod::kDefaultCodec == caveclod::Codec::draco ? "draco" : "meshopt";
     mesh::BakeChoices choices;
 };
 
