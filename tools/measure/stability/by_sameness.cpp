@@ -151,6 +151,16 @@ Result<std::vector<Finding>> run_moved_world(Stage& stage, const Case& each, con
     return findings;
 }
 
+namespace {
+
+view::Camera sized(view::Camera camera, const Stage& stage, double share) {
+    camera.width_px = uint32_t(std::max(1.0, std::round(stage.width_px * share)));
+    camera.height_px = uint32_t(std::max(1.0, std::round(stage.height_px * share)));
+    return camera;
+}
+
+}  // namespace
+
 Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const scene::Flight& flight,
                                         std::span<const MethodSpec> specs) {
     constexpr uint32_t kSettled = 2;  // frames after a resize
@@ -163,15 +173,14 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
         uint64_t stale = 0, same_hashes = 0;
         for (size_t i = 0; i < shares.size(); ++i) {
             size_t begin = (i + 1) * (cameras.size() - kSettled - 1) / (shares.size() + 1);
-            Result<ImageRgb8> before =
-                draw_once(*method, cameras[begin - (begin > 0 ? 1 : 0)], uint32_t(begin), samples_of(spec));
+            // In the size before, so that each share is a change.
+            view::Camera earlier = sized(cameras[begin - (begin > 0 ? 1 : 0)], stage, i > 0 ? shares[i - 1] : 1);
+            Result<ImageRgb8> before = draw_once(*method, earlier, uint32_t(begin), samples_of(spec));
             if (!before) return tl::unexpected(before.error());
             std::unique_ptr<Method> starting;
             Result<ImageRgb8> fresh = *before;
             for (uint32_t after = 0; after <= kSettled; ++after) {
-                view::Camera camera = cameras[begin + after];
-                camera.width_px = uint32_t(std::max(1.0, std::round(stage.width_px * shares[i])));
-                camera.height_px = uint32_t(std::max(1.0, std::round(stage.height_px * shares[i])));
+                view::Camera camera = sized(cameras[begin + after], stage, shares[i]);
                 Result<ImageRgb8> picture = draw_once(*method, camera, uint32_t(begin) + after, samples_of(spec));
                 if (!picture) return tl::unexpected(picture.error());
                 // A method with history starts afresh where the size changed, and flies the same frames.
