@@ -150,11 +150,13 @@ int bake_mesh(const MeshArgs& args, const command::Common& common) {
     if (!file) return command::fail(kName, file.error());
     Done done;
     done.input = std::move(file->report);
+    caveclod::BakeOptions options = args.choices.bake;
+    options.source_rounding_m = done.input.rounding_m;
     done.read_s = seconds_since(begin);
 
     begin = std::chrono::steady_clock::now();
     command::Progress progress(common, "baking");
-    auto hierarchy = caveclod::bake(file->mesh, args.choices.bake, done.bake, [&](double share) { progress.set(share); });
+    auto hierarchy = caveclod::bake(file->mesh, options, done.bake, [&](double share) { progress.set(share); });
     if (!hierarchy)
         return command::fail(kName, Error{hierarchy.error().exit, args.mesh + ": " + hierarchy.error().message});
     done.bake_s = seconds_since(begin);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/bake.h"
 #include "tools/bake/mesh_provenance.h"
@@ -57,6 +59,17 @@ TEST(MeshProof, FindsCornersThatMovedFartherThanStated) {
     Proof proof = proof_of(hierarchy, mesh);
     EXPECT_GT(proof.finest_moved_m, proof.finest_stated_m);
     EXPECT_FALSE(proof.holds());
+}
+
+TEST(MeshProof, HoldsWhatReadingHasMoved) {
+    mesh::Mesh mesh = test::torus(24, 12, 3, 1);
+    BakeOptions options;
+    options.source_rounding_m = 0.25;
+    BakeReport report;
+    auto hierarchy = bake(mesh, options, report, [](double) {});
+    ASSERT_TRUE(hierarchy) << hierarchy.error().message;
+    EXPECT_GE(hierarchy->finest_error_m, 0.25);
+    EXPECT_GE(*std::min_element(hierarchy->error_m.begin(), hierarchy->error_m.end()), 0.25f);
 }
 
 TEST(MeshProof, FindsABrokenLaw) {

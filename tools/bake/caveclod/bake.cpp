@@ -34,7 +34,7 @@ Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeR
 
     canonicalise(*hierarchy);
     report.quantised = quantise(*hierarchy, options.precision);
-    add_displacement(*hierarchy, report.quantised.position_m);
+    add_displacement(*hierarchy, report.quantised.position_m + options.source_rounding_m);
     if (auto completed = complete(*hierarchy); !completed) return tl::unexpected(completed.error());
     round_errors(*hierarchy);
     progress(1);

@@ -13,6 +13,7 @@ struct BakeOptions {
     GroupOptions groups;
     SimplifyOptions simplify;
     Precision precision;
+    double source_rounding_m = 0;  // how far the mesh's positions lie from those of its file (MeshReport::rounding_m)
 };
 
 // What was found and done, in numbers.
@@ -27,7 +28,8 @@ struct BakeReport {
     Quantised quantised;
 };
 
-// Bakes in memory; the hierarchy is quantised, complete and canonical, its errors hold against `mesh` as it is after quantising.
+// Bakes in memory; the hierarchy is quantised, complete and canonical, its errors hold against the file that
+// `mesh` was read from: what reading and quantising have moved is in them.
 // A pure function of its arguments, for any number of threads. `progress` is called with the share done, 0..1, from this thread.
 // Fails as find_groups, build_hierarchy and complete do.
 Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeReport& report,
