@@ -140,6 +140,15 @@ TEST(StatedError, OfACylinderIsThatOfItsChords) {
     }
 }
 
+TEST(Foldovers, AreNoneInRandomCutsOfATorus) {
+    Baked baked = bake(test::torus(60, 24, 1, 0.3));
+    TriangleTree source(test::triangles_of(baked.mesh.positions_m, baked.mesh.faces));
+    for (uint64_t seed = 0; seed < 20; ++seed) {
+        Applied applied = random_cut(baked.hierarchy, std::max<uint64_t>(100, baked.mesh.faces.size() >> (1 + seed % 6)), seed);
+        EXPECT_EQ(foldovers(baked, source, faces_of(baked.hierarchy, applied)), 0u) << seed;
+    }
+}
+
 // The baker asks of every new face that it faces the source that is mapped to it; this judge asks the source that is nearest, which
 // on rough ground and in coarse cuts may be another.
 TEST(Foldovers, AreFewerThanOneFaceInAThousandOfRandomCuts) {
