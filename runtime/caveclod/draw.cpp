@@ -21,6 +21,14 @@ gl::Texture view_of(GLuint buffer, GLenum format) {
     return gl::Texture(id);
 }
 
+gl::Buffer new_buffer(size_t pages) {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    gl::Buffer buffer(id);
+    glNamedBufferData(id, GLsizeiptr(pages * kPageBytes), nullptr, GL_DYNAMIC_DRAW);
+    return buffer;
+}
+
 gl::Texture texture_of(const ImageRgba8& image) {
     GLuint id = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &id);
@@ -33,6 +41,10 @@ gl::Texture texture_of(const ImageRgba8& image) {
     glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return texture;
+}
+
+view::Part part_of(const view::Camera& camera, const DrawOptions& options) {
+    return options.part.value_or(view::Part{0, 0, camera.width_px, camera.height_px});
 }
 
 float linear_of(uint8_t encoded) {
@@ -54,10 +66,7 @@ void CameraBuffers::take_surface(const FaceSlots& faces, uint32_t surface) {
     bool is_new = pages.size() > indices.capacity_pages;
     if (is_new) {
         indices.capacity_pages = pages.size() + pages.size() / 4;
-        GLuint id = 0;
-        glCreateBuffers(1, &id);
-        indices.buffer = gl::Buffer(id);
-        glNamedBufferData(id, GLsizeiptr(indices.capacity_pages * kPageBytes), nullptr, GL_DYNAMIC_DRAW);
+        indices.buffer = new_buffer(indices.capacity_pages);
     }
     for (uint32_t p = 0; p < pages.size(); ++p) {
         const FacePage& page = *pages[p];
@@ -80,6 +89,27 @@ void CameraBuffers::take(Refinement& refinement) {
     if (!glides.empty()) glides_.fill(glides);
     uploaded_bytes_ += glides.size();
     refinement.clear_dirty();
+}
+
+void CameraBuffers::take(std::span<const std::vector<uint32_t>> by_surface) {
+    uploaded_bytes_ = 0;
+    for (size_t surface = 0; surface < surfaces_.size(); ++surface) {
+        const std::vector<uint32_t>& from = by_surface[surface];
+        Indices& indices = surfaces_[surface];
+        indices.face_count = uint32_t(from.size() / 3);
+        if (from.empty()) continue;
+        size_t bytes = from.size() * sizeof(uint32_t), pages = (bytes + kPageBytes - 1) / kPageBytes;
+        if (pages > indices.capacity_pages) {
+            indices.capacity_pages = pages;
+            indices.buffer = new_buffer(pages);
+        }
+        glNamedBufferSubData(indices.buffer.id(), 0, GLsizeiptr(bytes), from.data());
+        uploaded_bytes_ += bytes;
+    }
+}
+
+uint64_t CameraBuffers::draw_call_count() const {
+    return uint64_t(std::count_if(surfaces_.begin(), surfaces_.end(), [](const Indices& one) { return one.face_count > 0; }));
 }
 
 uint64_t CameraBuffers::triangle_count() const {
@@ -158,6 +188,8 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glm::dvec3 place = (camera.position_m - options.origin_m - origin_m_) / grid_.position_step_m;
     glm::dvec3 whole = glm::clamp(glm::floor(place), -kFarthestStep, kFarthestStep), rest = place - whole;
     glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
+    view::PartMap map = view::part_map(camera, part_of(camera, options));
+    glUniform4f(program.at("part"), float(map.scale.x), float(map.scale.y), float(map.shift.x), float(map.shift.y));
     glUniform1ui(program.at("vertex_count"), vertex_count_);
     glUniform1ui(program.at("low_bits"), grid_.position_bits > 16 ? grid_.position_bits - 16 : 0);
     glUniform1i(program.at("has_colours"), colours_.id() != 0 ? 1 : 0);
@@ -196,12 +228,14 @@ void Drawing::draw_with(const gl::Program& program, const CameraBuffers& buffers
     glDisable(GL_CULL_FACE);
 }
 
-void Drawing::draw_background(const view::Camera& camera) const {
+void Drawing::draw_background(const view::Camera& camera, const DrawOptions& options) const {
+    view::Part part = part_of(camera, options);
     glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
     background_.use();
     glUniformMatrix3fv(background_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
     glUniform1f(background_.at("focal_px"), float(view::focal_px(camera)));
     glUniform2f(background_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
+    glUniform2f(background_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
     glBindVertexArray(nothing_.id());
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_GEQUAL);  // it is drawn at depth 0
@@ -218,7 +252,7 @@ void Drawing::draw(const gl::Target& target, const CameraBuffers& buffers, const
     if (options.is_wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     draw_with(shaded_, buffers, camera, options);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    draw_background(camera);
+    draw_background(camera, options);
     target.resolve();
 }
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct DrawOptions {
     bool is_wireframe = false;      // the triangles' edges alone
     bool culls_back_faces = false;  // of surfaces that are not two-sided; the same as Settings of the refinement
     glm::dvec3 origin_m{0};         // where the mesh's own world has its origin in that of the camera
+    std::optional<view::Part> part;  // of the camera's picture, that the target shows; the whole of it if not said
 };
 
 // What one camera draws, on the graphics card: an index buffer for each surface, kept up to date by what has changed.
@@ -28,8 +31,11 @@ class CameraBuffers {
 
     // Uploads what has changed since the last call, and clears that mark.
     void take(Refinement& refinement);
+    // Uploads these instead of all that was there: three vertices a face, [surfaces of the mesh].
+    void take(std::span<const std::vector<uint32_t>> by_surface);
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // by the last take()
     uint64_t triangle_count() const;
+    uint64_t draw_call_count() const;  // surfaces that have faces
 
   private:
     friend class Drawing;
@@ -63,7 +69,7 @@ class Drawing {
     Result<gl::Program> program(const gl::SurfaceShader& shader) const;
     void draw_with(const gl::Program& program, const CameraBuffers& buffers, const view::Camera& camera,
                    const DrawOptions& options) const;
-    void draw_background(const view::Camera& camera) const;
+    void draw_background(const view::Camera& camera, const DrawOptions& options) const;
 
   private:
     struct Look {
@@ -98,7 +104,7 @@ class MeshSurface : public gl::Surface {
     void draw(const gl::Program& program, const view::Camera& camera) override {
         drawing_.draw_with(program, buffers_, camera, options_);
     }
-    void draw_background(const view::Camera& camera) override { drawing_.draw_background(camera); }
+    void draw_background(const view::Camera& camera) override { drawing_.draw_background(camera, options_); }
 
   private:
     const Drawing& drawing_;

@@ -18,6 +18,7 @@ uniform vec2 uv_low;
 uniform float uv_step;
 uniform float normal_step;
 uniform mat4 clip_from_relative;
+uniform vec4 part;                            // of the picture: scale and shift of what is drawn
 out Surface {
     vec3 relative_m;
     vec3 normal;
@@ -83,6 +84,7 @@ void main() {
     surface.uv = vertex.uv;
     surface.tint = vertex.tint;
     gl_Position = clip_from_relative * vec4(surface.relative_m, 1.0);
+    gl_Position.xy = gl_Position.xy * part.xy + gl_Position.w * part.zw;
 }
 )";
 
@@ -141,9 +143,10 @@ inline constexpr char kBackgroundFragment[] = R"(#version 450 core
 uniform mat3 world_from_eye;
 uniform float focal_px;
 uniform vec2 middle_px;
+uniform vec2 first_px;  // of the part that is drawn: its lower left corner in the picture
 out vec4 colour;
 void main() {
-    float up = normalize(world_from_eye * vec3((gl_FragCoord.xy - middle_px) / focal_px, -1.0)).z;
+    float up = normalize(world_from_eye * vec3((gl_FragCoord.xy + first_px - middle_px) / focal_px, -1.0)).z;
     colour = vec4(mix(vec3(0.30, 0.33, 0.38), vec3(0.62, 0.68, 0.76), 0.5 + 0.5 * up), 1.0);
 }
 )";

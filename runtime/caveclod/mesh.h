@@ -87,6 +87,9 @@ class Mesh {
     const glm::dvec3& origin_m() const { return origin_m_; }
     // Where a vertex lies, relative to origin_m.
     glm::dvec3 vertex_m(uint32_t vertex) const;
+    // The box round all vertices, in the world.
+    const glm::dvec3& lowest_m() const { return lowest_m_; }
+    const glm::dvec3& highest_m() const { return highest_m_; }
 
     // A handle is a face's surface and its slot there: slots take the low bits.
     uint32_t slot_bits() const { return slot_bits_; }
@@ -109,7 +112,7 @@ class Mesh {
 
     uint32_t face_count_ = 0, base_position_count_ = 0, slot_bits_ = 32;
     float finest_error_m_ = 0;
-    glm::dvec3 origin_m_{0};
+    glm::dvec3 origin_m_{0}, lowest_m_{0}, highest_m_{0};
     double position_step_m_ = 1;
     Grid grid_;
     Attributes attributes_;

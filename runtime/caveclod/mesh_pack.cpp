@@ -103,6 +103,9 @@ class MeshPacker {
 
     void pack_vertices() {
         uint32_t low_bits = h_.grid.position_bits > 16 ? h_.grid.position_bits - 16 : 0;
+        glm::vec3 lowest(std::numeric_limits<float>::max()), highest(-lowest);
+        for (const glm::vec3& at : h_.positions_m) lowest = glm::min(lowest, at), highest = glm::max(highest, at);
+        mesh_.lowest_m_ = h_.origin_m + glm::dvec3(lowest), mesh_.highest_m_ = h_.origin_m + glm::dvec3(highest);
         for (uint32_t p = 0; p < h_.positions_m.size(); ++p) {
             GridPosition at = steps_of_position(h_.grid, h_.positions_m[p]);
             for (uint32_t v = h_.vertex_begin[p]; v < h_.vertex_begin[p + 1]; ++v) {

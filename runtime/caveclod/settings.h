@@ -2,6 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "formats/setting.h"
 
 namespace overlook::caveclod {
 
@@ -28,6 +32,26 @@ struct Settings {
     double glide_s = 0.25;
     double least_glide_px = 0.25;
 };
+
+// Who refines.
+enum class Variant {
+    own,    // each camera its own faces (refine.h)
+    paper,  // the same as printed in 2002 (paper.h)
+    shared  // one refinement that is brought to each camera in turn: the paper's comparison
+};
+
+// A way to draw a mesh from frame to frame.
+struct FrameOptions {
+    Variant variant = Variant::own;
+    Settings settings;
+    // Cameras that refine at once, 1..4: the one that is drawn and others at its place that look to the other sides.
+    uint32_t cameras = 1;
+};
+
+// What people may set of a variant; names without what the variant has not.
+std::span<const SettingKind> setting_kinds(Variant variant);
+// name and value must be of one of them.
+void set(FrameOptions& options, std::string_view name, double value);
 
 // What a camera's frame did.
 struct FrameReport {

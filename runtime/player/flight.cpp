@@ -63,4 +63,15 @@ std::optional<double> ground_m(const terrain::Terrain& terrain, double x_m, doub
     return highest;
 }
 
+double TerrainGround::distance_m(const glm::dvec3& place_m) const {
+    double x_m = std::clamp(place_m.x, 0.0, terrain_.frame.metres_per_column * (terrain_.shape.width - 1));
+    double y_m = std::clamp(place_m.y, -terrain_.frame.metres_per_row * (terrain_.shape.height - 1), 0.0);
+    double height = ground_m(terrain_, x_m, y_m).value_or(terrain_.height_offset_m);
+    return std::hypot(place_m.z - height, place_m.x - x_m, place_m.y - y_m);
+}
+
+double TerrainGround::step_m() const {
+    return std::min(terrain_.frame.metres_per_column, terrain_.frame.metres_per_row);
+}
+
 }  // namespace overlook::player

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "formats/terrain.h"
+#include "runtime/player/controls.h"
 #include "runtime/view/camera.h"
 
 namespace overlook::player {
@@ -15,5 +16,18 @@ view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double h
 
 // Height of the ground at x, y: the highest of the four samples round about; none beyond the raster or where one is void.
 std::optional<double> ground_m(const terrain::Terrain& terrain, double x_m, double y_m);
+
+// A terrain, which must outlive it, as the hands feel it.
+class TerrainGround : public Ground {
+  public:
+    explicit TerrainGround(const terrain::Terrain& terrain) : terrain_(terrain) {}
+    std::optional<double> height_m(double x_m, double y_m) const override { return ground_m(terrain_, x_m, y_m); }
+    double distance_m(const glm::dvec3& place_m) const override;
+    double step_m() const override;  // a cell
+    double least_speed_m_s() const override { return 4; }
+
+  private:
+    const terrain::Terrain& terrain_;
+};
 
 }  // namespace overlook::player

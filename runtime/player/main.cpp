@@ -15,7 +15,9 @@ int play(const Options& options, const command::Common& common) {
     Result<Scene> scene = Scene::read(options.file);
     if (!scene) return command::fail("player", scene.error());
 
-    Result<void> fit = check_fit(options, plan->method.value_or(scene->method()));
+    Method method = plan->method.value_or(scene->method());
+    Result<void> fit = check_kind(options, method, scene->method());
+    if (fit) fit = check_fit(options, method);
     if (!fit) return command::fail("player", fit.error());
 
     bool is_headless = options.headless;
@@ -32,7 +34,7 @@ int play(const Options& options, const command::Common& common) {
 }  // namespace overlook::player
 
 int main(int argc, char** argv) {
-    CLI::App app("Flies over a baked terrain or a scene: in a window, or --headless into pictures", "player");
+    CLI::App app("Flies over a baked terrain, a mesh or a scene: in a window, or --headless into pictures", "player");
     overlook::command::Common common;
     overlook::player::Options options;
     overlook::player::add_options(app, options);

@@ -11,8 +11,10 @@
 namespace overlook::player {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames = {"terrain", "lod-sprite", "lod-sprite:paper"};
-constexpr std::array<SettingKind, 1> kTerrainSettings = {SettingKind{"error-px", 0.001, 10000, 1}};
+constexpr std::array<std::string_view, 7> kNames = {
+    "terrain", "lod-sprite", "lod-sprite:paper", "caveclod", "caveclod:paper", "caveclod:shared", "discrete"};
+static_assert(size_t(Method::discrete) + 1 == kNames.size());
+constexpr std::array<SettingKind, 1> kErrorAlone = {SettingKind{"error-px", 0.001, 10000, 1}};
 
 std::span<const SettingKind> settings_of(Method method) {
     switch (method) {
@@ -20,9 +22,15 @@ std::span<const SettingKind> settings_of(Method method) {
             return lod_sprite::setting_kinds();
         case Method::lod_sprite_paper:
             return lod_sprite::paper::setting_kinds();
-        default:
-            return kTerrainSettings;
+        case Method::caveclod:
+        case Method::caveclod_paper:
+        case Method::caveclod_shared:
+            return caveclod::setting_kinds(variant_of(method));
+        case Method::terrain:
+        case Method::discrete:
+            break;
     }
+    return kErrorAlone;
 }
 
 std::string scene_name(std::string_view setting) {
@@ -59,7 +67,8 @@ Result<Method> method_of(const std::string& path, const scene::Layer& layer) {
     auto found = std::find(kNames.begin(), kNames.end(), whole);
     if (found != kNames.end()) return Method(found - kNames.begin());
     if (std::find(kNames.begin(), kNames.end(), layer.method) == kNames.end()) {
-        return impossible("{}: /layers/0/method: the player cannot draw {} yet; it draws terrain and lod-sprite", path,
+        return impossible("{}: /layers/0/method: the player cannot draw {} yet; it draws terrain, lod-sprite, caveclod and discrete",
+                          path,
                           layer.method);
     }
     return bad_input("{}: /layers/0/method: {} has no variant {}", path, layer.method, layer.variant);
@@ -97,8 +106,28 @@ std::string_view name_of(Method method) {
     return kNames[size_t(method)];
 }
 
+bool draws_meshes(Method method) {
+    return method >= Method::caveclod;
+}
+
+bool takes_budgets(Method method) {
+    return has_wireframe(method);
+}
+
+bool has_wireframe(Method method) {
+    return method == Method::terrain || draws_meshes(method);
+}
+
+caveclod::Variant variant_of(Method method) {
+    if (method == Method::caveclod_paper) return caveclod::Variant::paper;
+    return method == Method::caveclod_shared ? caveclod::Variant::shared : caveclod::Variant::own;
+}
+
 Method next(Method method) {
-    return Method((size_t(method) + 1) % kNames.size());
+    auto after = [](Method one) { return Method((size_t(one) + 1) % kNames.size()); };
+    Method found = after(method);
+    while (draws_meshes(found) != draws_meshes(method)) found = after(found);
+    return found;
 }
 
 Result<Method> parse_method(std::string_view text) {
@@ -127,9 +156,11 @@ Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& descr
     // What the scene does not say keeps the ratio to its error that it has by default.
     read.sprite = with_error(read.sprite, described.error_px);
     read.paper = with_error(read.paper, described.error_px);
+    read.mesh = with_error(read.mesh, described.error_px);
     for (const auto& [kind, value] : values) {
         if (read.method == Method::lod_sprite) lod_sprite::set(read.sprite, kind.name, value);
         if (read.method == Method::lod_sprite_paper) lod_sprite::paper::set(read.paper, kind.name, value);
+        if (draws_meshes(read.method) && read.method != Method::discrete) caveclod::set(read.mesh, kind.name, value);
     }
     if (Result<void> checked = check_promises(path, read); !checked) return tl::unexpected(checked.error());
     return read;
@@ -148,6 +179,12 @@ lod_sprite::paper::FrameOptions with_error(lod_sprite::paper::FrameOptions optio
     options.error_px = error_px;
     options.low_error_px *= ratio;
     options.decide.key_error_px *= ratio;
+    return options;
+}
+
+caveclod::FrameOptions with_error(caveclod::FrameOptions options, double error_px) {
+    options.settings.silhouette_error_px *= error_px / options.settings.error_px;
+    options.settings.error_px = error_px;
     return options;
 }
 

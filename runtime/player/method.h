@@ -5,20 +5,26 @@
 #include <string_view>
 
 #include "formats/scene.h"
+#include "runtime/caveclod/settings.h"
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/lod_sprite/draw_paper_frames.h"
 
 namespace overlook::player {
 
-enum class Method { terrain, lod_sprite, lod_sprite_paper };
+// Of terrains, then of meshes.
+enum class Method { terrain, lod_sprite, lod_sprite_paper, caveclod, caveclod_paper, caveclod_shared, discrete };
 
-// As typed: "terrain", "lod-sprite", "lod-sprite:paper".
+// As typed: "terrain", "lod-sprite", "lod-sprite:paper", "caveclod" ...
 std::string_view name_of(Method method);
-// The one that M goes on to; the last is followed by the first.
+bool draws_meshes(Method method);
+bool takes_budgets(Method method);  // of triangles or milliseconds, by the error asked for
+bool has_wireframe(Method method);
+caveclod::Variant variant_of(Method method);  // of one of caveclod's
+// The one that M goes on to, of the same kind of thing; the last is followed by the first.
 Method next(Method method);
 
 // Fails with Exit::bad_command:
-//   "--method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, lod-sprite:paper)"
+//   "--method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, ...)"
 Result<Method> parse_method(std::string_view text);
 
 // Method and settings of a scene's one layer; its error_px, if it has one, becomes the scene's. Fails with Exit::bad_input
@@ -30,17 +36,19 @@ Result<Method> parse_method(std::string_view text);
 //   "a.json: /layers/0/settings/keyframe: at-once, thread or sliced is wanted"
 //   "a.json: /layers/0/settings/low_error_px: 0.5 is less than the error_px of 1"
 // with Exit::impossible
-//   "a.json: /layers/0/method: the player cannot draw caveclod yet; it draws terrain and lod-sprite"
+//   "a.json: /layers/0/method: the player cannot draw wang-ldi yet; it draws terrain, lod-sprite, caveclod and discrete"
 struct LayerMethod {
     Method method = Method::terrain;
     // Both with the scene's error_px; what it does not say of their other promises keeps its default ratio to it.
     lod_sprite::FrameOptions sprite;
     lod_sprite::paper::FrameOptions paper;
+    caveclod::FrameOptions mesh;
 };
 Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described);
 
 // The same with error_px; what is promised elsewhere keeps its ratio to it.
 lod_sprite::FrameOptions with_error(lod_sprite::FrameOptions options, double error_px);
 lod_sprite::paper::FrameOptions with_error(lod_sprite::paper::FrameOptions options, double error_px);
+caveclod::FrameOptions with_error(caveclod::FrameOptions options, double error_px);
 
 }  // namespace overlook::player

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 #include "runtime/player/record.h"
 
@@ -64,16 +63,31 @@ bool find_number(const std::string& pattern, NumberPlace& place) {
 }  // namespace
 
 Result<void> check_fit(const Options& options, Method method) {
-    if (method == Method::terrain) return {};
-    const std::pair<const char*, bool> kOfTerrain[] = {{"--triangles", options.triangles > 0},
-                                                       {"--frame-ms", options.frame_ms > 0},
-                                                       {"--morph", options.sets_morph},
-                                                       {"--wireframe", options.wireframe},
-                                                       {"--split-picture", options.split_picture}};
-    for (const auto& [name, is_given] : kOfTerrain) {
-        if (is_given) return bad_command("{}: {} does not take it; --method terrain does", name, name_of(method));
+    struct Rule {
+        const char* name;
+        bool is_given, is_taken;
+    };
+    bool is_terrain = method == Method::terrain, is_triangles = has_wireframe(method);
+    const Rule kRules[] = {{"--triangles", options.triangles > 0, takes_budgets(method)},
+                           {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
+                           {"--morph", options.sets_morph, is_terrain},
+                           {"--wireframe", options.wireframe, is_triangles},
+                           {"--split-picture", options.split_picture, is_terrain},
+                           {"--haze", options.sets_haze, !draws_meshes(method)}};
+    for (const Rule& rule : kRules) {
+        if (rule.is_given && !rule.is_taken)
+            return bad_command("{}: {} does not take it; --method terrain does", rule.name, name_of(method));
     }
     return {};
+}
+
+Result<void> check_kind(const Options& options, Method method, Method file_method) {
+    if (draws_meshes(method) == draws_meshes(file_method)) return {};
+    std::string fitting(name_of(file_method));
+    for (Method one = next(file_method); one != file_method; one = next(one)) fitting += fmt::format(", {}", name_of(one));
+    return bad_command("--method {}: it draws {}, and {} holds a {}; that takes {}", name_of(method),
+                       draws_meshes(method) ? "meshes" : "terrains", options.file, draws_meshes(method) ? "terrain" : "mesh",
+                       fitting);
 }
 
 void choose_samples(Plan& plan, bool is_software, bool is_window) {
@@ -84,7 +98,7 @@ void choose_samples(Plan& plan, bool is_software, bool is_window) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("file", options.file, "A baked terrain, or a scene of one")->required()->type_name("FILE.ovl|SCENE.json");
+    app.add_option("file", options.file, "A baked terrain or mesh, or a scene of one")->required()->type_name("FILE.ovl|SCENE.json");
     app.add_flag("--headless", options.headless, "Draw without a window");
     app.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH")->capture_default_str();
     app.add_option("--camera", options.cameras,
@@ -100,8 +114,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
     app.add_option("--method", options.method,
-                   "What to draw with: terrain, lod-sprite or lod-sprite:paper; default what the scene says, or terrain. In the "
-                   "window M changes it, K shows what lod-sprite takes from where")
+                   "What to draw with: a terrain by terrain, lod-sprite or lod-sprite:paper, a mesh by caveclod, caveclod:paper, "
+                   "caveclod:shared or discrete; default what the scene says, or the first. In the window M changes it, K shows "
+                   "what lod-sprite takes from where")
         ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,
                                             "Triangles a frame at most: the error rises above --error-px where it must")

@@ -17,10 +17,10 @@
 namespace overlook::player {
 
 struct Options {
-    std::string file;  // the baked terrain, or a scene of one (.json)
+    std::string file;  // the baked terrain or mesh, or a scene of one (.json)
     bool headless = false;
     std::string size = "1280x720";
-    std::vector<std::string> cameras;  // none = an overview of the terrain
+    std::vector<std::string> cameras;  // none = an overview of the whole
     std::string flight;                // a flight to follow; empty = none
     std::string record;                // where R records a flight to; empty = flight-NNN.json
     uint32_t frames = 0;               // 0 = all of the flight; without one a picture headless, endless in a window
@@ -30,7 +30,7 @@ struct Options {
     uint64_t triangles = 0;  // budgets of a frame, 0 = none; at most one of the two
     double frame_ms = 0;
     double morph = terrain::kDefaultMorph;  // 0 = vertices pop; as Refiner::cut_by_pixels
-    std::string method;                     // empty = what the scene says, or terrain
+    std::string method;                     // empty = what the scene says, or by the file's kind
     bool wireframe = false;
     bool split_picture = false;
     double haze = 1;
@@ -53,9 +53,12 @@ void add_options(CLI::App& app, Options& options);
 // Fails with Exit::bad_command and a line that names the option, or as scene::read_flight.
 Result<Plan> plan_from(const Options& options);
 
-// Fails with Exit::bad_command if an option asks for what only terrain can do:
+// Fails with Exit::bad_command if an option asks for what the method cannot do:
 //   "--triangles: lod-sprite does not take it; --method terrain does"
+//   "--method caveclod: it draws meshes, and valley.ovl holds a terrain; that takes terrain, lod-sprite, lod-sprite:paper"
 Result<void> check_fit(const Options& options, Method method);
+// file_method: one that the file can be drawn with.
+Result<void> check_kind(const Options& options, Method method, Method file_method);
 
 // Settles the samples a pixel, if none were asked for: 4, but 1 in a window that the processor draws, which would else be too
 // slow to fly. With 1 the texture is filtered the fast way as well.

@@ -18,6 +18,12 @@ std::string megabytes(uint64_t bytes) {
 // Which method draws; of LOD-sprite what its keys do.
 void method_lines(const OverlayText& text) {
     text_line(fmt::format("method {}", name_of(text.method)));
+    if (text.frame->mesh) {
+        const caveclod::FrameCounts& mesh = *text.frame->mesh;
+        text_line(fmt::format("splits {}, {} forced; collapses {}{}", mesh.split_count, mesh.forced_count, mesh.collapse_count,
+                              mesh.is_settled ? "" : "; more to come"));
+        if (mesh.wrong_corner_count > 0) text_line(fmt::format("       {} wrong corners", mesh.wrong_corner_count));
+    }
     if (!text.frame->sprite) return;
     const lod_sprite::FrameCounts& sprite = *text.frame->sprite;
     std::string last = text.keys.cause == lod_sprite::Cause::none
@@ -33,7 +39,7 @@ void method_lines(const OverlayText& text) {
 
 // What the keys do with this method.
 std::string key_line(Method method) {
-    std::string looks = method == Method::terrain ? "F wireframe, " : method == Method::lod_sprite ? "K sources, " : "";
+    std::string looks = has_wireframe(method) ? "F wireframe, " : method == Method::lod_sprite ? "K sources, " : "";
     return "+ - error, M method, " + looks + "H this text, P picture, R record, Esc ends";
 }
 
@@ -63,7 +69,7 @@ void Overlay::draw(const OverlayText& text) {
     const ImGuiWindowFlags plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
     ImGui::Begin("Overlook", nullptr, plain);
-    text_line(fmt::format("{} triangles, {} vertices tested, {} sent", text.frame->triangle_count, text.frame->tested_count,
+    text_line(fmt::format("{} triangles, {} places tested, {} sent", text.frame->triangle_count, text.frame->tested_count,
                           megabytes(text.frame->uploaded_bytes)));
     method_lines(text);
     text_line(fmt::format("refine {:6.2f} ms   draw {:6.2f} ms", text.frame->refine_ms, text.frame->draw_ms));

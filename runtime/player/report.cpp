@@ -39,6 +39,14 @@ Json frame_json(const FrameRecord& frame) {
                  {"uploaded_bytes", frame.uploaded_bytes},
                  {"asked_error_px", frame.asked_error_px},
                  {"predicted_error_px", frame.predicted_error_px}};
+    if (frame.mesh) {
+        json["splits"] = frame.mesh->split_count;
+        json["forced_splits"] = frame.mesh->forced_count;
+        json["collapses"] = frame.mesh->collapse_count;
+        json["wrong_corners"] = frame.mesh->wrong_corner_count;
+        json["camera_bytes"] = frame.mesh->camera_bytes;
+        json["settled"] = frame.mesh->is_settled;
+    }
     if (!frame.sprite) return json;
     const lod_sprite::FrameCounts& sprite = *frame.sprite;
     json["key_triangles"] = sprite.key_triangle_count;

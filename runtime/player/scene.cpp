@@ -1,13 +1,10 @@
 #include "runtime/player/scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 
-#include "runtime/gl/timer.h"
-#include "runtime/player/flight.h"
+#include "formats/caveclod.h"
+#include "formats/terrain.h"
 #include "runtime/player/record.h"
-#include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 
 namespace overlook::player {
@@ -18,28 +15,26 @@ Result<scene::Scene> read_described(const std::string& path) {
     Result<scene::Scene> described = scene::read_scene(path);
     if (!described) return described;
     if (described->layers.size() > 1)
-        return impossible("{}: /layers/1: the player draws one terrain at a time; leave one layer", path);
+        return impossible("{}: /layers/1: the player draws one thing at a time; leave one layer", path);
     return described;
 }
 
-// By either form of LOD-sprite.
-template <class FrameDrawer>
-Result<void> draw_sprite(FrameDrawer& frames, const gl::Target& target, const view::Camera& local, FrameRecord& record) {
-    gl::Timer deciding;
-    frames.decide(local);
-    record.refine_ms = deciding.elapsed_ms();
-
-    gl::Timer drawing;
-    Result<lod_sprite::FrameCounts> drawn = frames.draw(target);
-    if (!drawn) return tl::unexpected(drawn.error());
-    record.draw_ms = drawing.finished_ms();
-
-    record.triangle_count = drawn->triangle_count;
-    record.tested_count = drawn->tested_count;
-    record.predicted_error_px = drawn->error_p99_px;
-    record.uploaded_bytes = drawn->uploaded_bytes;
-    record.sprite = *drawn;
-    return {};
+// What is drawn, by the kind of its file, if that is what the method draws.
+Result<std::unique_ptr<Subject>> read_subject(const std::string& asset, const std::string& path, LayerMethod& layer,
+                                              bool is_method_said) {
+    Result<container::Reader> file = container::Reader::open(asset);
+    if (!file) return tl::unexpected(file.error());
+    bool is_mesh = file->kind() == caveclod::kKind;
+    if (!is_mesh && file->kind() != terrain::kKind) {
+        return bad_input("{}: a file of kind {} cannot be drawn; a baked terrain or mesh is wanted", asset,
+                         container::tag_text(file->kind()));
+    }
+    if (!is_method_said) layer.method = is_mesh ? Method::caveclod : Method::terrain;
+    if (draws_meshes(layer.method) != is_mesh) {
+        return bad_input("{}: /layers/0/method: {} draws {}, and {} is a {}", path, name_of(layer.method),
+                         is_mesh ? "terrains" : "meshes", asset, is_mesh ? "mesh" : "terrain");
+    }
+    return is_mesh ? read_mesh(*file, layer) : read_terrain(*file, layer);
 }
 
 }  // namespace
@@ -58,19 +53,14 @@ Result<Scene> Scene::read(const std::string& path) {
     } else {
         scene.described_.layers.emplace_back();
     }
-    Result<terrain::Terrain> terrain = terrain::read(asset);
-    if (!terrain) return tl::unexpected(terrain.error());
-    scene.terrain_ = std::make_unique<terrain::Terrain>(std::move(*terrain));
-    scene.refiner_.emplace(*scene.terrain_);
+    Result<std::unique_ptr<Subject>> subject = read_subject(asset, path, scene.layer_, path.ends_with(".json"));
+    if (!subject) return tl::unexpected(subject.error());
+    scene.subject_ = std::move(*subject);
     return scene;
 }
 
-Result<void> Scene::upload(const gl::SecondContextMaker& second) {
-    second_context_ = second;
-    Result<terrain::Drawing> drawing = terrain::Drawing::make(*terrain_);
-    if (!drawing) return tl::unexpected(drawing.error());
-    drawing_.emplace(std::move(*drawing));
-    return {};
+Result<FrameRecord> Scene::draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) {
+    return subject_->draw(target, view::camera_into(transform(), camera), style);
 }
 
 void watch(KeyWatch& keys, const FrameRecord& frame) {
@@ -92,79 +82,17 @@ double cost_of(const Options& options, const FrameRecord& frame) {
     return options.triangles > 0 ? double(frame.triangle_count) : frame.refine_ms + frame.draw_ms;
 }
 
-Result<FrameRecord> Scene::draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) {
-    assert(drawing_.has_value());
-    view::Camera local = terrain::with_clear_near_plane(*terrain_, view::camera_into(transform(), camera));
-    bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
-    if (!goes_on) paper_.reset();
-    if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));
-    last_method_ = style.method;
-    last_error_px_ = style.error_px;
-
-    FrameRecord record;
-    record.asked_error_px = style.error_px;
-    if (style.method == Method::terrain) {
-        draw_terrain(target, local, style, record);
-        return record;
-    }
-    Result<void> ready = ready_sprite(style);
-    if (!ready) return tl::unexpected(ready.error());
-    Result<void> drawn = style.method == Method::lod_sprite ? draw_sprite(*sprite_, target, local, record)
-                                                            : draw_sprite(*paper_, target, local, record);
-    if (!drawn) return tl::unexpected(drawn.error());
-    return record;
-}
-
-// Whoever draws this method's sprites, with this error.
-Result<void> Scene::ready_sprite(const FrameStyle& style) {
-    terrain::DrawOptions look = style.look;
-    look.look = terrain::Look::shaded;
-    if (style.method == Method::lod_sprite_paper) {
-        if (paper_) return {};
-        lod_sprite::paper::FrameOptions options = with_error(layer_.paper, style.error_px);
-        options.look = look;
-        paper_ = std::make_unique<lod_sprite::paper::FrameDrawer>(*terrain_, *refiner_, *drawing_, options);
-        return {};
-    }
-    if (!sprite_) {
-        lod_sprite::FrameOptions options = with_error(layer_.sprite, style.error_px);
-        options.look = look;
-        auto made = lod_sprite::FrameDrawer::make(*refiner_, *drawing_, options, second_context_);
-        if (!made) return tl::unexpected(made.error());
-        sprite_ = std::move(*made);
-    }
-    sprite_->show_sources(style.shows_sources || layer_.sprite.draw.shows_sources);
-    return {};
-}
-
-void Scene::draw_terrain(const gl::Target& target, const view::Camera& local, const FrameStyle& style, FrameRecord& record) {
-    gl::Timer refining;
-    refiner_->cut_by_pixels(local, style.error_px, cut_, style.morph);
-    record.refine_ms = refining.elapsed_ms();
-
-    gl::Timer drawing;
-    drawing_->draw(target, cut_, local, style.look);
-    record.draw_ms = drawing.finished_ms();
-
-    record.triangle_count = cut_.triangle_count();
-    record.void_rim_triangle_count = cut_.void_rim_triangle_count;
-    record.tested_count = cut_.tested_count;
-    record.predicted_error_px = cut_.predicted_error_px;
-    record.uploaded_bytes = drawing_->uploaded_bytes();
-}
-
 void settle(Plan& plan, const Scene& scene) {
     const scene::Scene& described = scene.described();
     plan.method = plan.method.value_or(scene.method());
     if (!plan.options.sets_error_px) plan.options.error_px = described.error_px;
     if (!plan.options.sets_haze) plan.draw.haze = described.light.haze;
     plan.base.fov_y_deg = described.camera.fov_y_deg;
-    plan.base.near_m = described.camera.near_m.value_or(near_m(scene.terrain()) * scene.transform().scale);
+    plan.base.near_m = described.camera.near_m.value_or(scene.subject().near_m() * scene.transform().scale);
 
     std::vector<scene::Key>& keys = plan.flight.keys;
     if (keys.empty()) {
-        view::Camera local =
-            overview(scene.terrain(), scene.refiner().lowest_m(), scene.refiner().highest_m(), plan.width_px, plan.height_px);
+        view::Camera local = scene.subject().overview(plan.width_px, plan.height_px);
         keys.push_back(key_of(view::camera_out_of(scene.transform(), local), 0));
     }
     uint32_t& frames = plan.options.frames;
@@ -174,11 +102,6 @@ void settle(Plan& plan, const Scene& scene) {
     } else if (keys.size() > 1 && frames > 1) {
         plan.flight.step_s = keys.back().time_s / (frames - 1);
     }
-}
-
-double near_m(const terrain::Terrain& terrain) {
-    double cell_m = std::min(terrain.frame.metres_per_column, terrain.frame.metres_per_row);
-    return std::min(0.5, 0.25 * cell_m);
 }
 
 }  // namespace overlook::player

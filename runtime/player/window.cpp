@@ -161,17 +161,16 @@ Input read_input(GLFWwindow* window, const Events& events, Flight& flight) {
     return input;
 }
 
-// A budget raises the error of terrain alone.
 FrameStyle style_of(const Flight& flight, const view::ErrorController& controller) {
     FrameStyle style = flight.style;
-    if (style.method == Method::terrain) style.error_px = controller.error_px();
+    if (takes_budgets(style.method)) style.error_px = controller.error_px();
     return style;
 }
 
-// The hands act in the terrain's own frame.
+// The hands act in the thing's own frame.
 void fly_over(const Scene& scene, view::Camera& camera, Flyer& flyer, const Input& input, double dt_s) {
     view::Camera local = view::camera_into(scene.transform(), camera);
-    fly(local, flyer, input, dt_s, scene.terrain());
+    fly(local, flyer, input, dt_s, scene.subject());
     camera = view::camera_out_of(scene.transform(), local);
 }
 
@@ -242,7 +241,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
 
     Flight flight;
     flight.camera = view::camera_at(plan.flight, 0, plan.base);
-    flight.style = {*plan.method, plan.options.error_px, plan.options.morph, false, plan.draw};
+    flight.style = {*plan.method, plan.options.error_px, plan.options.morph, false, plan.draw, 0};
     view::ErrorController controller(budget_of(plan.options, flight.style.error_px));
     std::optional<gl::Target> target;
     std::vector<FrameRecord> records;
@@ -259,6 +258,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
             flight.camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
         else
             fly_over(scene, flight.camera, flight.flyer, input, now_s - last_s);
+        flight.style.dt_s = frame_count > 0 ? plan.flight.step_s : now_s - last_s;
         last_s = now_s;
         if (Result<void> kept = record(plan, common, events.toggle_recording, now_s, flight); !kept) return kept;
 
@@ -272,7 +272,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         if (events.presses.error != 0) controller.set_budget(budget_of(plan.options, flight.style.error_px));
         Result<FrameRecord> record = scene.draw(*target, flight.camera, style_of(flight, controller));
         if (!record) return tl::unexpected(record.error());
-        if (flight.style.method == Method::terrain) controller.frame_done(cost_of(plan.options, *record));
+        if (takes_budgets(flight.style.method)) controller.frame_done(cost_of(plan.options, *record));
         watch(flight.keys, *record);
         show(window, *target, flight, *record, renderer, overlay);
         if (events.take_picture) {

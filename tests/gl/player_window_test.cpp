@@ -10,6 +10,7 @@
 #include "runtime/player/controls.h"
 #include "runtime/player/flight.h"
 #include "runtime/player/record.h"
+#include "runtime/player/scene.h"
 #include "runtime/view/flight.h"
 #include "tests/gl/fixture.h"
 
@@ -268,7 +269,7 @@ TEST_F(Player, RefusesWhatAMethodCannotDo) {
     EXPECT_EQ(play(file_ + " --headless --method lod-sprit"), 2);
     EXPECT_EQ(output_,
               "player: --method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, "
-              "lod-sprite:paper)\n");
+              "lod-sprite:paper, caveclod, caveclod:paper, caveclod:shared, discrete)\n");
 }
 
 TEST_F(Player, DrawsLodSpriteInAWindowAsWithoutOne) {
@@ -391,7 +392,7 @@ TEST(Flying, NeverGoesUnderTheGround) {
     input.is_fast = true;
     bool touched = false;
     for (int frame = 0; frame < 600; ++frame) {
-        player::fly(camera, flyer, input, 1.0 / 30, terrain);
+        player::fly(camera, flyer, input, 1.0 / 30, player::TerrainGround(terrain));
         std::optional<double> ground = player::ground_m(terrain, camera.position_m.x, camera.position_m.y);
         if (!ground) continue;
         ASSERT_GE(camera.position_m.z, *ground + player::kLeastHeight_m) << "frame " << frame;

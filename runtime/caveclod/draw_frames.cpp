@@ -1,0 +1,134 @@
+#include "runtime/caveclod/draw_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::caveclod {
+std::vector<view::Camera> cameras_round(const view::Camera& camera, uint32_t count) {
+    std::vector<view::Camera> cameras(count, camera);
+    for (uint32_t i = 1; i < count; ++i)
+        cameras[i].heading_deg = std::remainder(camera.heading_deg + 360.0 * i / count, 360.0);
+    return cameras;
+}
+
+FrameDrawer::FrameDrawer(const Hierarchy& hierarchy, const Mesh& mesh, const Drawing& drawing, const FrameOptions& options)
+    : mesh_(mesh), drawing_(drawing), options_(options), reports_(options.cameras) {
+    if (options.variant == Variant::paper) paper_mesh_ = std::make_unique<paper::Mesh>(hierarchy);
+    bool is_one = options.variant == Variant::shared;
+    for (uint32_t i = 0; i < options.cameras; ++i) {
+        if (paper_mesh_) {
+            paper_.push_back(std::make_unique<paper::CameraRefinement>(*paper_mesh_));
+        } else if (i == 0 || !is_one) {
+            refinements_.push_back(std::make_unique<Refinement>(mesh));
+        }
+        if (i == 0 || !is_one) buffers_.push_back(std::make_unique<CameraBuffers>(mesh));
+    }
+}
+
+void FrameDrawer::take(const FrameReport& report, bool is_drawn) {
+    counts_.split_count += report.split_count;
+    counts_.collapse_count += report.collapse_count;
+    counts_.forced_count += report.forced_count;
+    counts_.evaluated_count += report.evaluated_count;
+    counts_.refined_triangle_count += report.triangle_count;
+    counts_.is_settled = counts_.is_settled && report.is_settled;
+    if (is_drawn) counts_.error_px = report.error_px;
+}
+
+void FrameDrawer::decide(const view::Camera& camera, double dt_s) {
+    cameras_ = cameras_round(camera, options_.cameras);
+    counts_ = {};
+    switch (options_.variant) {
+        case Variant::own:
+            decide_own(dt_s);
+            break;
+        case Variant::shared:
+            decide_shared();
+            break;
+        case Variant::paper:
+            decide_paper();
+            break;
+    }
+}
+
+void FrameDrawer::decide_own(double dt_s) {
+    std::vector<Refinement*> all;
+    for (const auto& refinement : refinements_) all.push_back(refinement.get());
+    Settings settings = options_.settings;
+    if (is_first_) settings.most_operations = 0, settings.glide_s = 0;
+    is_first_ = false;
+    refine_all(all, cameras_, settings, dt_s, reports_);
+    for (size_t i = 0; i < all.size(); ++i) {
+        take(reports_[i], i == 0);
+        buffers_[i]->take(*all[i]);
+        counts_.uploaded_bytes += buffers_[i]->uploaded_bytes();
+        Refinement::Bytes bytes = all[i]->bytes();
+        counts_.camera_bytes += bytes.fixed + bytes.active + bytes.glides;
+    }
+}
+
+// The camera that is drawn comes last, so that its faces are what stays.
+void FrameDrawer::decide_shared() {
+    std::vector<view::Camera> in_turn(cameras_.rbegin(), cameras_.rend());
+    Refinement& shared = *refinements_.front();
+    refine_in_turn(
+        shared, in_turn, options_.settings,
+        [&](size_t) {
+            buffers_.front()->take(shared);
+            counts_.uploaded_bytes += buffers_.front()->uploaded_bytes();
+        },
+        reports_);
+    for (size_t i = 0; i < reports_.size(); ++i) take(reports_[i], i + 1 == reports_.size());
+    Refinement::Bytes bytes = shared.bytes();
+    counts_.camera_bytes = bytes.fixed + bytes.active + bytes.glides;
+}
+
+void FrameDrawer::decide_paper() {
+    paper::Options options;
+    options.settings = options_.settings;
+    std::vector<std::vector<uint32_t>> by_surface;
+    for (size_t i = 0; i < paper_.size(); ++i) {
+        take(paper_[i]->refine(cameras_[i], options), i == 0);
+        uint64_t wrong = 0;
+        paper_[i]->collect(by_surface, wrong);
+        buffers_[i]->take(by_surface);
+        counts_.uploaded_bytes += buffers_[i]->uploaded_bytes();
+        if (i > 0) continue;
+        counts_.wrong_corner_count = wrong;
+        paper_faces_ = by_surface;
+    }
+    for (const auto& camera : paper_) {
+        paper::Equation1 terms = paper::equation1(paper_mesh_->nodes().size(), mesh_.face_count(), 0, 0, 0,
+                                                  camera->active_node_count(), camera->active_polygon_count(), 1);
+        counts_.camera_bytes += terms.active_nodes + terms.active_polygons + terms.cameras;
+    }
+}
+
+FrameCounts FrameDrawer::draw(const gl::Target& target, const DrawOptions& look) {
+    drawing_.draw(target, *buffers_.front(), cameras_.front(), look);
+    counts_.triangle_count = buffers_.front()->triangle_count();
+    counts_.draw_call_count = buffers_.front()->draw_call_count() + 1;  // and the background
+    return counts_;
+}
+
+std::vector<glm::dvec3> FrameDrawer::drawn_corners_m() const {
+    std::vector<glm::dvec3> corners;
+    auto place_of = [&](uint32_t vertex) {
+        if (vertex < mesh_.vertex_count()) return mesh_.vertex_m(vertex);
+        const GlideVertex& glide = refinements_.front()->glide_vertices()[vertex - mesh_.vertex_count()];
+        return glm::mix(mesh_.vertex_m(glide.from), mesh_.vertex_m(glide.to), double(glide.share));
+    };
+    auto add = [&](uint32_t vertex) { corners.push_back(mesh_.origin_m() + place_of(vertex)); };
+    for (const std::vector<uint32_t>& indices : paper_faces_) std::for_each(indices.begin(), indices.end(), add);
+    if (refinements_.empty()) return corners;
+    const FaceSlots& faces = refinements_.front()->faces();
+    for (uint32_t surface = 0; surface < faces.surface_count(); ++surface) {
+        for (uint32_t page = 0; page < faces.pages(surface).size(); ++page) {
+            const FacePage& one = *faces.pages(surface)[page];
+            std::for_each(one.indices.begin(), one.indices.begin() + 3 * faces.page_count(surface, page), add);
+        }
+    }
+    return corners;
+}
+
+}  // namespace overlook::caveclod

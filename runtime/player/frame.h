@@ -1,0 +1,39 @@
+// One frame of the player: how it is to be drawn, and what it was.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/caveclod/draw_frames.h"
+#include "runtime/lod_sprite/draw_frames.h"
+#include "runtime/player/method.h"
+#include "runtime/terrain/draw.h"
+
+namespace overlook::player {
+
+// What one frame was and what it cost.
+struct FrameRecord {
+    uint64_t triangle_count = 0;
+    uint64_t void_rim_triangle_count = 0;
+    uint64_t tested_count = 0;
+    uint64_t uploaded_bytes = 0;
+    double refine_ms = 0;
+    double draw_ms = 0;         // submitting and waiting until it is drawn
+    double asked_error_px = 0;  // above --error-px where a budget forces it
+    double predicted_error_px = 0;
+    // Of a frame by LOD-sprite, whose predicted error is the p99 over the pixels.
+    std::optional<lod_sprite::FrameCounts> sprite;
+    std::optional<caveclod::FrameCounts> mesh;  // of a mesh that is refined
+};
+
+// How a frame is to be drawn.
+struct FrameStyle {
+    Method method = Method::terrain;
+    double error_px = 1;
+    double morph = 0;            // of terrain, as Refiner::cut_by_pixels
+    bool shows_sources = false;  // of lod-sprite: what is sprite and what is not
+    terrain::DrawOptions look;   // lod-sprite: of the shaded picture all but the wireframe; a mesh: the wireframe alone
+    double dt_s = 1.0 / 60;      // since the frame before
+};
+
+}  // namespace overlook::player

@@ -1,0 +1,37 @@
+// What is flown over: a terrain, or a mesh.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "formats/container.h"
+#include "runtime/gl/context.h"
+#include "runtime/gl/target.h"
+#include "runtime/player/controls.h"
+#include "runtime/player/frame.h"
+
+namespace overlook::player {
+
+// Deciding and drawing put together. Places and cameras are in its own frame. Must go before the context it was uploaded to.
+class Subject : public Ground {
+  public:
+    // Puts it on the graphics card. Needs a current context; must be called once before draw(). second: how a context beside it
+    // is made, for keys that are drawn by a thread.
+    virtual Result<void> upload(const gl::SecondContextMaker& second) = 0;
+
+    // A view over the whole of it.
+    virtual view::Camera overview(uint32_t width_px, uint32_t height_px) const = 0;
+    virtual double near_m() const = 0;
+
+    // A method that was not drawn with in the frame before begins anew. Fails as lod_sprite::FrameDrawer.
+    virtual Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) = 0;
+};
+
+// layer: its settings. Fail as terrain::read and caveclod::read, and with Exit::impossible as caveclod::Mesh::make.
+Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer);
+Result<std::unique_ptr<Subject>> read_mesh(const container::Reader& file, const LayerMethod& layer);
+
+}  // namespace overlook::player

@@ -1,0 +1,142 @@
+// A terrain in the player: by its own triangles, or by LOD-sprite on them.
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "formats/terrain.h"
+#include "runtime/gl/timer.h"
+#include "runtime/player/flight.h"
+#include "runtime/player/subject.h"
+#include "runtime/terrain/near_plane.h"
+#include "runtime/terrain/refine.h"
+
+namespace overlook::player {
+namespace {
+
+// By either form of LOD-sprite.
+template <class FrameDrawer>
+Result<void> draw_sprite(FrameDrawer& frames, const gl::Target& target, const view::Camera& local, FrameRecord& record) {
+    gl::Timer deciding;
+    frames.decide(local);
+    record.refine_ms = deciding.elapsed_ms();
+
+    gl::Timer drawing;
+    Result<lod_sprite::FrameCounts> drawn = frames.draw(target);
+    if (!drawn) return tl::unexpected(drawn.error());
+    record.draw_ms = drawing.finished_ms();
+
+    record.triangle_count = drawn->triangle_count;
+    record.tested_count = drawn->tested_count;
+    record.predicted_error_px = drawn->error_p99_px;
+    record.uploaded_bytes = drawn->uploaded_bytes;
+    record.sprite = *drawn;
+    return {};
+}
+
+class TerrainSubject : public Subject {
+  public:
+    TerrainSubject(terrain::Terrain terrain, const LayerMethod& layer)
+        : terrain_(std::move(terrain)), refiner_(terrain_), ground_(terrain_), layer_(layer) {}
+
+    Result<void> upload(const gl::SecondContextMaker& second) override {
+        second_context_ = second;
+        Result<terrain::Drawing> drawing = terrain::Drawing::make(terrain_);
+        if (!drawing) return tl::unexpected(drawing.error());
+        drawing_.emplace(std::move(*drawing));
+        return {};
+    }
+
+    view::Camera overview(uint32_t width_px, uint32_t height_px) const override {
+        return player::overview(terrain_, refiner_.lowest_m(), refiner_.highest_m(), width_px, height_px);
+    }
+    double near_m() const override { return std::min(0.5, 0.25 * step_m()); }
+    std::optional<double> height_m(double x_m, double y_m) const override { return ground_.height_m(x_m, y_m); }
+    double distance_m(const glm::dvec3& place_m) const override { return ground_.distance_m(place_m); }
+    double step_m() const override { return ground_.step_m(); }
+    double least_speed_m_s() const override { return ground_.least_speed_m_s(); }
+
+    Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
+        assert(drawing_.has_value());
+        view::Camera local = terrain::with_clear_near_plane(terrain_, camera);
+        bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
+        if (!goes_on) paper_.reset();
+        if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));
+        last_method_ = style.method;
+        last_error_px_ = style.error_px;
+
+        FrameRecord record;
+        record.asked_error_px = style.error_px;
+        if (style.method == Method::terrain) {
+            draw_triangles(target, local, style, record);
+            return record;
+        }
+        Result<void> ready = ready_sprite(style);
+        if (!ready) return tl::unexpected(ready.error());
+        Result<void> drawn = style.method == Method::lod_sprite ? draw_sprite(*sprite_, target, local, record)
+                                                                : draw_sprite(*paper_, target, local, record);
+        if (!drawn) return tl::unexpected(drawn.error());
+        return record;
+    }
+
+  private:
+    // Whoever draws this method's sprites, with this error.
+    Result<void> ready_sprite(const FrameStyle& style) {
+        terrain::DrawOptions look = style.look;
+        look.look = terrain::Look::shaded;
+        if (style.method == Method::lod_sprite_paper) {
+            if (paper_) return {};
+            lod_sprite::paper::FrameOptions options = with_error(layer_.paper, style.error_px);
+            options.look = look;
+            paper_ = std::make_unique<lod_sprite::paper::FrameDrawer>(terrain_, refiner_, *drawing_, options);
+            return {};
+        }
+        if (!sprite_) {
+            lod_sprite::FrameOptions options = with_error(layer_.sprite, style.error_px);
+            options.look = look;
+            auto made = lod_sprite::FrameDrawer::make(refiner_, *drawing_, options, second_context_);
+            if (!made) return tl::unexpected(made.error());
+            sprite_ = std::move(*made);
+        }
+        sprite_->show_sources(style.shows_sources || layer_.sprite.draw.shows_sources);
+        return {};
+    }
+
+    void draw_triangles(const gl::Target& target, const view::Camera& local, const FrameStyle& style, FrameRecord& record) {
+        gl::Timer refining;
+        refiner_.cut_by_pixels(local, style.error_px, cut_, style.morph);
+        record.refine_ms = refining.elapsed_ms();
+
+        gl::Timer drawing;
+        drawing_->draw(target, cut_, local, style.look);
+        record.draw_ms = drawing.finished_ms();
+
+        record.triangle_count = cut_.triangle_count();
+        record.void_rim_triangle_count = cut_.void_rim_triangle_count;
+        record.tested_count = cut_.tested_count;
+        record.predicted_error_px = cut_.predicted_error_px;
+        record.uploaded_bytes = drawing_->uploaded_bytes();
+    }
+
+    const terrain::Terrain terrain_;
+    const terrain::Refiner refiner_;
+    TerrainGround ground_;
+    LayerMethod layer_;
+    gl::SecondContextMaker second_context_;
+    std::optional<terrain::Drawing> drawing_;
+    terrain::Cut cut_;
+    std::unique_ptr<lod_sprite::FrameDrawer> sprite_;        // once it was drawn with
+    std::unique_ptr<lod_sprite::paper::FrameDrawer> paper_;  // while it is drawn with
+    Method last_method_ = Method::terrain;                   // of the frame before
+    double last_error_px_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer) {
+    Result<terrain::Terrain> terrain = terrain::read(file);
+    if (!terrain) return tl::unexpected(terrain.error());
+    return std::make_unique<TerrainSubject>(std::move(*terrain), layer);
+}
+
+}  // namespace overlook::player
