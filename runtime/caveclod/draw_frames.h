@@ -40,6 +40,7 @@ class FrameDrawer {
     // From the next frame on; the faces stay as they are and go on from there.
     void change(const Settings& settings) { options_.settings = settings; }
     const FrameOptions& options() const { return options_; }
+    const FrameCounts& counts() const { return counts_; }  // of the frame decided last
 
     // The drawn camera's, of Variant::own and Variant::shared; null of the paper's.
     const Refinement* refinement() const { return refinements_.empty() ? nullptr : refinements_.front().get(); }

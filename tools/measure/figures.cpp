@@ -23,7 +23,7 @@ std::optional<double> of_g(R record, Value value) {
     return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
 }
 
-constexpr std::array<Figure, 29> kFigures = {{
+constexpr std::array<Figure, 32> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -55,6 +55,11 @@ constexpr std::array<Figure, 29> kFigures = {{
      [](R r) -> O { return double(r.counters.key_triangle_count); }, true},
     {"key_pixels", "of keyframes, drawn besides the picture's own", [](R r) -> O { return double(r.counters.key_pixel_count); },
      true},
+    {"operations", "splits and collapses, of all cameras", [](R r) -> O { return double(r.counters.operation_count); }, true},
+    {"camera_bytes", "what cameras keep in main memory beside what they share",
+     [](R r) -> O { return double(r.counters.camera_bytes); }, true},
+    {"wrong_corners", "corners of triangles drawn with the attributes of another face",
+     [](R r) -> O { return double(r.counters.wrong_corner_count); }, true},
     {"predicted_error_px", "what the method promises of this frame", [](R r) -> O { return r.counters.predicted_error_px; },
      true},
     {"g_max", "measured over predicted displacement of a thing drawn, greatest",

@@ -39,6 +39,7 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     if (!specs) return tl::unexpected(specs.error());
     Result<World> read = read_world(options.scene);
     if (!read) return tl::unexpected(read.error());
+    if (Result<void> draws = check_draws(*specs, *read); !draws) return draws;
     Result<Route> route = route_from(options, *read);
     if (!route) return tl::unexpected(route.error());
     std::string cache_folder = options.out + "/cache";
@@ -49,6 +50,7 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     if (!context) return tl::unexpected(context.error());
     gl::ErrorCounter errors;
     World world = std::move(*read);  // goes before the context
+    world.step_s = route->step_s;
     if (Result<void> uploaded = upload(world); !uploaded) return uploaded;
 
     Course course{std::move(*specs), route->cameras, route->step_s, compared_from(options)};

@@ -8,10 +8,13 @@
 #include <optional>
 
 #include "formats/names.h"
+#include "runtime/caveclod/settings.h"
 #include "runtime/lod_sprite/draw_paper_frames.h"
 #include "runtime/terrain/refine.h"
+#include "tools/measure/full_geometry.h"
 #include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
+#include "tools/measure/mesh_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -23,6 +26,7 @@ constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
 constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
+constexpr std::array<SettingKind, 2> kDiscreteSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 // What runtime says of a method, and the samples of the pictures.
 std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
@@ -31,12 +35,16 @@ std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
     return all;
 }
 
-const std::array<MethodKind, 5>& kinds() {
+const std::array<MethodKind, 9>& kinds() {
     static const std::vector<SettingKind> kSprite = with_samples(lod_sprite::setting_kinds());
     static const std::vector<SettingKind> kSpritePaper = with_samples(lod_sprite::paper::setting_kinds());
-    static const std::array<MethodKind, 5> kKinds = {
+    static const std::vector<SettingKind> kOwn = with_samples(caveclod::setting_kinds(caveclod::Variant::own)),
+                                          kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper));
+    static const std::array<MethodKind, 9> kKinds = {
         MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
         MethodKind{"lod-sprite", "", kSprite}, MethodKind{"lod-sprite", "paper", kSpritePaper},
+        MethodKind{"caveclod", "", kOwn}, MethodKind{"caveclod", "paper", kOthers}, MethodKind{"caveclod", "shared", kOthers},
+        MethodKind{"discrete", "", kDiscreteSettings},
         MethodKind{"full", "", kFullSettings}};
     return kKinds;
 }
@@ -244,10 +252,25 @@ double morph_of(const MethodSpec& spec) {
     return spec.variant == "hard" ? 0 : setting(spec, "morph");
 }
 
+bool draws_meshes(const MethodSpec& spec) {
+    return spec.name == "caveclod" || spec.name == "discrete";
+}
+
+Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) {
+    for (const MethodSpec& spec : specs) {
+        if (is_floor(spec) || draws_meshes(spec) == world.is_mesh()) continue;
+        return impossible("--method {}: it draws {}, and {} holds a {}", named(spec), world.is_mesh() ? "terrains" : "meshes",
+                          world.name, world.is_mesh() ? "mesh" : "terrain");
+    }
+    return {};
+}
+
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
+    if (spec.name == "caveclod") return make_caveclod_method(world, spec);
+    if (spec.name == "discrete") return make_discrete_method(world, setting(spec, "error-px"));
     assert(spec.name == "terrain");
     return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));
 }

@@ -21,7 +21,7 @@ struct MethodKind {
 std::span<const MethodKind> method_kinds();  // the default variant of each method before its others
 
 // Reads "NAME[:variant][@setting=value]...". Fails with Exit::bad_command:
-//   "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, full)"
+//   "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, caveclod, discrete, full)"
 //   "--method terrain:soft: terrain has no such variant"
 //   "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?"
 //   "--method terrain:hard@morph=1: terrain:hard has no setting morph"
@@ -45,7 +45,12 @@ double morph_of(const MethodSpec& spec);
 // Triangles that a frame may have, 0 = as many as its error takes.
 double budget_of(const MethodSpec& spec);
 
-// The spec must come from above; the world must outlive the method.
+bool draws_meshes(const MethodSpec& spec);
+// Fails with Exit::impossible:
+//   "--method caveclod: it draws meshes, and valley.json holds a terrain"
+Result<void> check_draws(std::span<const MethodSpec> specs, const World& world);
+
+// The spec must come from above and draw what the world holds; the world must outlive the method.
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world);
 
 }  // namespace overlook::measure

@@ -58,7 +58,7 @@ Result<scene::Flight> flight_from_file(const Options& options, Route& route) {
 }  // namespace
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("scene", options.scene, "What is flown over: a scene (.json), or a baked terrain by itself (.ovl)")
+    app.add_option("scene", options.scene, "What is flown over: a scene (.json), or a baked terrain or mesh by itself (.ovl)")
         ->required()
         ->type_name("SCENE");
     app.add_option("--flight", options.flight, "The flight")->type_name("FLIGHT.json");
@@ -74,7 +74,10 @@ void add_options(CLI::App& app, Options& options) {
            "terrain:hard, whose levels pop (error-px, samples, triangles); lod-sprite (error-px of keys, low-error-px, "
            "key-error-px, samples, keyframe=at-once|thread|sliced: how keys are made; and its remedies, each to be switched "
            "off); lod-sprite:paper, as published (error-px, "
-           "low-error-px, key-error-px, depth-thickness, eye-depth, strips, samples); full (samples)")
+           "low-error-px, key-error-px, depth-thickness, eye-depth, strips, samples); of meshes: caveclod (error-px, samples, triangles, "
+           "operations, cameras that refine at once, glide-s, silhouette-px and others); caveclod:paper, as published, and "
+           "caveclod:shared, one refinement for all cameras (error-px, cameras, samples); discrete, levels for the whole mesh "
+           "(error-px, samples); of both: full (samples)")
         ->type_name("METHOD")
         ->required()
         ->expected(1)
@@ -132,8 +135,7 @@ Result<Route> route_from(const Options& options, const World& world) {
     base.height_px = height_px;
     for (uint32_t frame = 0; frame < count; ++frame) {
         view::Camera camera = view::camera_at(*flight, frame * route.step_s, base);
-        camera = view::camera_into(world.transform, camera);
-        route.cameras.push_back(terrain::with_clear_near_plane(*world.terrain, camera));
+        route.cameras.push_back(world.local(camera));
     }
     return route;
 }

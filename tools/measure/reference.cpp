@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "formats/mapped_file.h"
+#include "runtime/caveclod/draw_shaders.h"
 #include "runtime/terrain/draw_shaders.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/reference_cache.h"
@@ -17,7 +18,12 @@ std::string hash_of(const std::string& text) {
     return content_hash(std::as_bytes(std::span(text)));
 }
 
-std::string shaders_hash() {
+std::string shaders_hash(bool is_mesh) {
+    namespace mesh = caveclod::shaders;
+    if (is_mesh) {
+        return hash_of(std::string(mesh::kMeshVertexInputs) + mesh::kUnmoved + mesh::kMeshVertexMain + mesh::kMeshFragment +
+                       mesh::kShadedMain + mesh::kBackgroundVertex + mesh::kBackgroundFragment);
+    }
     return hash_of(std::string(terrain::shaders::kTerrainVertexInputs) + terrain::shaders::kUnmoved +
                    terrain::shaders::kTerrainVertexMain + terrain::shaders::kAir + terrain::shaders::kTerrainFragment +
                    terrain::shaders::kShadedMain + terrain::shaders::kSkyVertex + terrain::shaders::kSkyRowFragment +
@@ -76,13 +82,13 @@ Result<ReferenceRenderer> ReferenceRenderer::make(World& world, const gl::Render
     made.cache_folder_ = std::move(cache_folder);
     made.identity_ = fmt::format("reference {} x {} in parts of {} x {}\n{}\n{}\n{}\n{}\n{}{}", kSupersampling, kSupersampling,
                                  part_width_px, part_height_px, world.content_hash, renderer.name, renderer.version,
-                                 shaders_hash(), bits_of(world.look.haze), bits_of(double(world.look.anisotropy)));
+                                 shaders_hash(world.is_mesh()), bits_of(world.look.haze), bits_of(double(world.look.anisotropy)));
     return made;
 }
 
 Frame ReferenceRenderer::drawn(const view::Camera& camera) {
     ++drawn_count_;
-    world_->drawing->draw(middle_, full_, camera, world_->look);
+    full_.draw(middle_, camera);
     Frame frame = captured(middle_, middle_, camera);
     view::Camera large_camera = camera;
     large_camera.width_px *= kSupersampling;
@@ -100,16 +106,14 @@ Result<Frame> ReferenceRenderer::surroundings(const view::Camera& camera, uint32
     view::Camera wide = widened(camera, margin_px);
     Result<gl::Target> target = gl::Target::make(wide.width_px, wide.height_px, 1);
     if (!target) return tl::unexpected(target.error());
-    world_->drawing->draw(*target, full_, wide, world_->look);
+    full_.draw(*target, wide);
     Frame frame = captured(*target, *target, wide);
     std::fill(frame.rgb.begin(), frame.rgb.end(), uint8_t(0));
     return frame;
 }
 
 ImageRgb8 ReferenceRenderer::part_of(const view::Camera& large_camera, const view::Part& part) {
-    terrain::DrawOptions options = world_->look;
-    options.part = part;
-    world_->drawing->draw(large_, full_, large_camera, options);
+    full_.draw(large_, large_camera, part);
     return box_filtered(large_.read(), kSupersampling);
 }
 

@@ -6,7 +6,7 @@
 
 #include "runtime/gl/context.h"
 #include "tools/measure/frame.h"
-#include "tools/measure/terrain_method.h"
+#include "tools/measure/full_geometry.h"
 #include "tools/measure/world.h"
 
 namespace overlook::measure {
@@ -41,14 +41,14 @@ class ReferenceRenderer {
 
   private:
     ReferenceRenderer(World& world, gl::Target large, gl::Target middle)
-        : world_(&world), large_(std::move(large)), middle_(std::move(middle)), full_(full_cut(world)) {}
+        : world_(&world), large_(std::move(large)), middle_(std::move(middle)), full_(world) {}
     Frame drawn(const view::Camera& camera);
     ImageRgb8 part_of(const view::Camera& large_camera, const view::Part& part);
 
     World* world_;
     gl::Target large_;   // of one part
     gl::Target middle_;  // of the picture
-    terrain::Cut full_;
+    FullGeometry full_;
     std::string cache_folder_, identity_;
     uint64_t drawn_count_ = 0, kept_count_ = 0, damaged_count_ = 0;
 };

@@ -46,12 +46,12 @@ std::vector<uint8_t> seen_by(const view::Camera& key, std::span<const float> key
     return seen;
 }
 
-ReuseTruth::ReuseTruth(World& world) : world_(world), full_(full_cut(world)) {}
+ReuseTruth::ReuseTruth(World& world) : full_(world) {}
 
 Result<Frame> ReuseTruth::full_geometry(const view::Camera& camera) {
     Result<gl::Target> target = gl::Target::make(camera.width_px, camera.height_px, 1);
     if (!target) return tl::unexpected(target.error());
-    world_.drawing->draw(*target, full_, camera, world_.look);
+    full_.draw(*target, camera);
     return captured(*target, *target, camera);
 }
 

@@ -8,7 +8,7 @@
 #include "tools/measure/frame.h"
 #include "tools/measure/method.h"
 #include "tools/measure/numbers/image_reuse.h"
-#include "tools/measure/world.h"
+#include "tools/measure/full_geometry.h"
 
 namespace overlook::measure {
 
@@ -41,8 +41,7 @@ class ReuseTruth {
   private:
     static constexpr size_t kMostKept = 8;  // keys are used for many frames
 
-    World& world_;
-    terrain::Cut full_;
+    FullGeometry full_;
     std::deque<Frame> keys_;  // drawn lately
 };
 

@@ -8,19 +8,6 @@ namespace {
 constexpr double kSplitAll_m = -1;  // below every error, 0 as well
 constexpr uint64_t kDrawCalls = 2;  // sky and ground
 
-Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cut, const view::Camera& camera) {
-    world.drawing->draw(target, cut, camera, world.look);
-    Counters counters;
-    counters.triangle_count = cut.triangle_count();
-    counters.vertex_reference_count = cut.indices.size();
-    counters.draw_call_count = kDrawCalls;
-    counters.uploaded_bytes = world.drawing->uploaded_bytes();
-    counters.tested_count = cut.tested_count;
-    counters.resident_bytes = world.resident_bytes + counters.uploaded_bytes;
-    counters.predicted_error_px = cut.predicted_error_px;
-    return counters;
-}
-
 class Refined : public Method {
   public:
     Refined(World& world, const view::ErrorBudget& budget, double morph) : world_(world), controller_(budget), morph_(morph) {}
@@ -31,7 +18,7 @@ class Refined : public Method {
         world_.refiner->cut_by_pixels(camera, error_px_, cut_, morph_);
         controller_.frame_done(double(cut_.triangle_count()));
     }
-    Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
+    Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_, world_.look); }
     // The same cut again, with what it is worth: the frames that are timed do without.
     std::optional<Promises> promises() override {
         terrain::Cut cut;
@@ -49,20 +36,21 @@ class Refined : public Method {
     terrain::Cut cut_;
 };
 
-class Full : public Method {
-  public:
-    explicit Full(World& world) : world_(world), cut_(full_cut(world)) {}
-
-    void decide(const view::Camera& camera, uint32_t) override { camera_ = camera; }
-    Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_); }
-
-  private:
-    World& world_;
-    view::Camera camera_;
-    terrain::Cut cut_;
-};
-
 }  // namespace
+
+Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cut, const view::Camera& camera,
+                  const terrain::DrawOptions& look) {
+    world.drawing->draw(target, cut, camera, look);
+    Counters counters;
+    counters.triangle_count = cut.triangle_count();
+    counters.vertex_reference_count = cut.indices.size();
+    counters.draw_call_count = kDrawCalls;
+    counters.uploaded_bytes = world.drawing->uploaded_bytes();
+    counters.tested_count = cut.tested_count;
+    counters.resident_bytes = world.resident_bytes + counters.uploaded_bytes;
+    counters.predicted_error_px = cut.predicted_error_px;
+    return counters;
+}
 
 std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudget& budget, double morph) {
     return std::make_unique<Refined>(world, budget, morph);
@@ -74,10 +62,6 @@ terrain::Cut full_cut(const World& world) {
     cut.tested_count = 0;  // nothing is decided from frame to frame
     cut.predicted_error_px = 0;
     return cut;
-}
-
-std::unique_ptr<Method> make_full_method(World& world) {
-    return std::make_unique<Full>(world);
 }
 
 }  // namespace overlook::measure

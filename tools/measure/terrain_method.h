@@ -1,4 +1,4 @@
-// The terrain's methods: refined to a promised error in pixels, and everything at full detail.
+// The terrain's own method: refined to a promised error in pixels.
 #pragma once
 
 #include <memory>
@@ -16,6 +16,9 @@ std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudge
 
 // Every triangle of the raster, whether in view or not.
 terrain::Cut full_cut(const World& world);
-std::unique_ptr<Method> make_full_method(World& world);
+
+// Draws a cut and counts what that takes.
+Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cut, const view::Camera& camera,
+                  const terrain::DrawOptions& look);
 
 }  // namespace overlook::measure

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "formats/container.h"
 #include "formats/mapped_file.h"
+#include "runtime/terrain/near_plane.h"
+#include "runtime/view/flight.h"
 
 namespace overlook::measure {
 namespace {
@@ -13,25 +16,39 @@ uint64_t bytes_on_card(const terrain::Terrain& terrain) {
     return 4 * uint64_t(terrain.heights.size()) + 4 * texels * 4 / 3;
 }
 
-// A scene file, or the scene that a baked terrain makes by itself.
+// A scene file, or the scene that a baked file makes by itself.
 Result<scene::Scene> scene_of(const std::string& path) {
     if (!path.ends_with(".ovl")) return scene::read_scene(path);
     scene::Scene scene;
-    scene.layers.push_back({path.substr(path.rfind('/') + 1), {}, "terrain", "", {}});
+    scene.layers.push_back({path.substr(path.rfind('/') + 1), {}, "", "", {}});
     return scene;
 }
 
-Result<void> check_layers(const std::string& path, const scene::Scene& scene) {
-    constexpr const char* kOnly = "measure draws scenes of one terrain";
-    if (scene.layers.size() != 1) return impossible("{}: has {} layers; {}", path, scene.layers.size(), kOnly);
-    const std::string& method = scene.layers[0].method;
-    if (method != "terrain") return impossible("{}: /layers/0/method: {} cannot be measured yet; {}", path, method, kOnly);
-    return {};
+constexpr const char* kOnly = "measure draws scenes of one terrain or mesh";
+
+// These say the near plane's distance, metres, so near that nothing is cut off that can be seen.
+Result<double> read_terrain(const container::Reader& file, World& world) {
+    if (file.kind() != terrain::kKind)
+        return impossible("{}: a file of kind {} cannot be measured; {}", file.name(), container::tag_text(file.kind()), kOnly);
+    Result<terrain::Terrain> terrain = terrain::read(file);
+    if (!terrain) return tl::unexpected(terrain.error());
+    world.terrain = std::make_unique<terrain::Terrain>(std::move(*terrain));
+    world.refiner.emplace(*world.terrain);
+    world.resident_bytes = bytes_on_card(*world.terrain);
+    return std::min(0.5, 0.25 * std::min(world.terrain->frame.metres_per_column, world.terrain->frame.metres_per_row));
 }
 
-// So near that nothing above the ground is cut off, whatever the size of the cells.
-double near_m(const terrain::Terrain& terrain) {
-    return std::min(0.5, 0.25 * std::min(terrain.frame.metres_per_column, terrain.frame.metres_per_row));
+Result<double> read_mesh(const container::Reader& file, World& world) {
+    constexpr double kNearShare = 1e-4;  // of its size
+    Result<caveclod::Hierarchy> hierarchy = caveclod::read(file);
+    if (!hierarchy) return tl::unexpected(hierarchy.error());
+    Result<caveclod::Mesh> mesh = caveclod::Mesh::make(*hierarchy);
+    if (!mesh) return tl::unexpected(mesh.error());
+    MeshWorld& made = world.mesh.emplace();
+    made.hierarchy = std::make_unique<caveclod::Hierarchy>(std::move(*hierarchy));
+    made.mesh = std::make_unique<caveclod::Mesh>(std::move(*mesh));
+    world.resident_bytes = made.mesh->vertices().size_bytes() + made.mesh->colours().size_bytes();
+    return std::min(0.5, kNearShare * glm::distance(made.mesh->lowest_m(), made.mesh->highest_m()) / 2);
 }
 
 }  // namespace
@@ -39,31 +56,41 @@ double near_m(const terrain::Terrain& terrain) {
 Result<World> read_world(const std::string& path) {
     Result<scene::Scene> scene = scene_of(path);
     if (!scene) return tl::unexpected(scene.error());
-    if (Result<void> checked = check_layers(path, *scene); !checked) return tl::unexpected(checked.error());
+    if (scene->layers.size() != 1) return impossible("{}: has {} layers; {}", path, scene->layers.size(), kOnly);
     std::string asset = scene::asset_path(path, scene->layers[0]);
     Result<MappedFile> scene_file = MappedFile::open(path), asset_file = MappedFile::open(asset);
     if (!scene_file) return tl::unexpected(scene_file.error());
     if (!asset_file) return tl::unexpected(asset_file.error());
-    Result<terrain::Terrain> terrain = terrain::read(asset);
-    if (!terrain) return tl::unexpected(terrain.error());
+    Result<container::Reader> file = container::Reader::open(asset);
+    if (!file) return tl::unexpected(file.error());
 
     World world;
     world.name = path.substr(path.rfind('/') + 1);
     std::string hashes = content_hash(scene_file->bytes()) + content_hash(asset_file->bytes());
     world.content_hash = content_hash(std::as_bytes(std::span(hashes)));
-    world.terrain = std::make_unique<terrain::Terrain>(std::move(*terrain));
-    world.refiner.emplace(*world.terrain);
-    world.resident_bytes = bytes_on_card(*world.terrain);
+    Result<double> near_m = file->kind() == caveclod::kKind ? read_mesh(*file, world) : read_terrain(*file, world);
+    if (!near_m) return tl::unexpected(near_m.error());
     world.look.haze = scene->light.haze;
     // Mesa 22.3's llvmpipe loops for seconds, or for ever, on some triangles with anisotropic filtering.
     world.look.anisotropy = 1;
     world.transform = scene->layers[0].transform;
     world.base.fov_y_deg = scene->camera.fov_y_deg;
-    world.base.near_m = scene->camera.near_m.value_or(near_m(*world.terrain) * world.transform.scale);
+    world.base.near_m = scene->camera.near_m.value_or(*near_m * world.transform.scale);
     return world;
 }
 
+view::Camera World::local(const view::Camera& camera) const {
+    view::Camera own = view::camera_into(transform, camera);
+    return is_mesh() ? own : terrain::with_clear_near_plane(*terrain, own);
+}
+
 Result<void> upload(World& world) {
+    if (world.is_mesh()) {
+        Result<caveclod::Drawing> drawing = caveclod::Drawing::make(*world.mesh->mesh);
+        if (!drawing) return tl::unexpected(drawing.error());
+        world.mesh->drawing.emplace(std::move(*drawing));
+        return {};
+    }
     Result<terrain::Drawing> drawing = terrain::Drawing::make(*world.terrain);
     if (!drawing) return tl::unexpected(drawing.error());
     world.drawing.emplace(std::move(*drawing));

@@ -5,13 +5,23 @@
 #include <optional>
 #include <string>
 
+#include "formats/caveclod.h"
 #include "formats/scene.h"
+#include "runtime/caveclod/draw.h"
+#include "runtime/caveclod/mesh.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
 
 namespace overlook::measure {
 
-// Must go before the context that it was uploaded to.
+struct MeshWorld {
+    std::unique_ptr<caveclod::Hierarchy> hierarchy;
+    std::unique_ptr<caveclod::Mesh> mesh;
+    std::optional<caveclod::Drawing> drawing;
+    caveclod::DrawOptions look;
+};
+
+// Holds a terrain or a mesh. Must go before the context that it was uploaded to.
 struct World {
     std::string name;          // of the scene's file, without its folder
     std::string content_hash;  // of the scene and of everything it names
@@ -19,15 +29,21 @@ struct World {
     std::optional<terrain::Refiner> refiner;
     std::optional<terrain::Drawing> drawing;
     terrain::DrawOptions look;    // the same for every method and the reference
+    std::optional<MeshWorld> mesh;  // then there is no terrain
     uint64_t resident_bytes = 0;  // on the card without what changes from frame to frame
-    scene::Transform transform;   // from the terrain's own frame into the scene's
+    scene::Transform transform;   // from the thing's own frame into the scene's
     view::Camera base;            // what a flight does not say: near plane, field of view
+    double step_s = 1.0 / 60;     // of the logical clock, from frame to frame
+
+    bool is_mesh() const { return mesh.has_value(); }
+    // A camera of the scene in the thing's own frame, its near plane where it cuts nothing off.
+    view::Camera local(const view::Camera& camera) const;
 };
 
-// Reads a scene (.json) or a baked terrain by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as scene::read_scene
-// and terrain::read; and with Exit::impossible:
-//   "a.scene.json: has 2 layers; measure draws scenes of one terrain"
-//   "a.scene.json: /layers/0/method: caveclod cannot be measured yet; measure draws scenes of one terrain"
+// Reads a scene (.json), or a baked terrain or mesh by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
+// scene::read_scene, terrain::read and caveclod::read; and with Exit::impossible:
+//   "a.scene.json: has 2 layers; measure draws scenes of one terrain or mesh"
+//   "a.ovl: a file of kind WLDI cannot be measured; measure draws scenes of one terrain or mesh"
 Result<World> read_world(const std::string& path);
 
 // Puts it on the graphics card, once; needs a current context. Fails with Exit::impossible.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 #include "tools/measure/honesty/terrain_honesty.h"
 
@@ -28,8 +27,7 @@ std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& fl
         uint64_t frame = i;
         if (!takes_all && pick == Pick::spread && count > 1) frame = uint64_t(i) * (whole - 1) / (count - 1);
         view::Camera camera = view::camera_at(flight, scene::frame_time_s(flight, frame), base);
-        camera = view::camera_into(stage.world.transform, camera);
-        cameras.push_back(terrain::with_clear_near_plane(*stage.world.terrain, camera));
+        cameras.push_back(stage.world.local(camera));
     }
     return cameras;
 }

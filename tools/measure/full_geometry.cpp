@@ -1,0 +1,55 @@
+#include "tools/measure/full_geometry.h"
+
+#include "runtime/caveclod/static_levels.h"
+#include "tools/measure/terrain_method.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr double kEverything_m = -1;  // below every error, 0 as well
+
+class Full : public Method {
+  public:
+    explicit Full(World& world) : geometry_(world) {}
+
+    void decide(const view::Camera& camera, uint32_t) override { camera_ = camera; }
+    Counters draw(const gl::Target& target) override { return geometry_.draw(target, camera_); }
+
+  private:
+    FullGeometry geometry_;
+    view::Camera camera_;
+};
+
+}  // namespace
+
+FullGeometry::FullGeometry(World& world) : world_(&world) {
+    if (!world.mesh) {
+        cut_ = full_cut(world);
+        return;
+    }
+    buffers_ = std::make_unique<caveclod::CameraBuffers>(*world.mesh->mesh);
+    buffers_->take(caveclod::faces_within(*world.mesh->mesh, kEverything_m).by_surface);
+}
+
+Counters FullGeometry::draw(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
+    if (!world_->mesh) {
+        terrain::DrawOptions look = world_->look;
+        look.part = part;
+        return draw_cut(*world_, target, cut_, camera, look);
+    }
+    caveclod::DrawOptions look = world_->mesh->look;
+    look.part = part;
+    world_->mesh->drawing->draw(target, *buffers_, camera, look);
+    Counters counters;
+    counters.triangle_count = buffers_->triangle_count();
+    counters.vertex_reference_count = 3 * counters.triangle_count;
+    counters.draw_call_count = buffers_->draw_call_count() + 1;
+    counters.resident_bytes = world_->resident_bytes + buffers_->uploaded_bytes();
+    return counters;
+}
+
+std::unique_ptr<Method> make_full_method(World& world) {
+    return std::make_unique<Full>(world);
+}
+
+}  // namespace overlook::measure

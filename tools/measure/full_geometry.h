@@ -1,0 +1,28 @@
+// Everything that there is of a world, drawn: what the reference shows, and the floor of all methods.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "tools/measure/method.h"
+#include "tools/measure/world.h"
+
+namespace overlook::measure {
+
+// The world must be uploaded and outlive it.
+class FullGeometry {
+  public:
+    explicit FullGeometry(World& world);
+
+    // Resolves the target. part: of the camera's picture, that the target shows; the whole of it if not said.
+    Counters draw(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part = std::nullopt);
+
+  private:
+    World* world_;
+    terrain::Cut cut_;                                   // of a terrain: every triangle of the raster
+    std::unique_ptr<caveclod::CameraBuffers> buffers_;   // of a mesh: every face
+};
+
+std::unique_ptr<Method> make_full_method(World& world);
+
+}  // namespace overlook::measure
