@@ -4,10 +4,15 @@
 #include <cmath>
 
 namespace overlook::caveclod {
+namespace {
+
+constexpr uint32_t kMostTraversals = 256;  // to the first frame of the paper's
+
+}  // namespace
+
 std::vector<view::Camera> cameras_round(const view::Camera& camera, uint32_t count) {
     std::vector<view::Camera> cameras(count, camera);
-    for (uint32_t i = 1; i < count; ++i)
-        cameras[i].heading_deg = std::remainder(camera.heading_deg + 360.0 * i / count, 360.0);
+    for (uint32_t i = 1; i < count; ++i) cameras[i].heading_deg = std::remainder(camera.heading_deg + 360.0 * i / count, 360.0);
     return cameras;
 }
 
@@ -88,7 +93,15 @@ void FrameDrawer::decide_paper() {
     options.settings = options_.settings;
     std::vector<std::vector<uint32_t>> by_surface;
     for (size_t i = 0; i < paper_.size(); ++i) {
-        take(paper_[i]->refine(cameras_[i], options), i == 0);
+        FrameReport report = paper_[i]->refine(cameras_[i], options);
+        // A traversal goes one step deeper.
+        for (uint32_t more = 0; is_first_ && !report.is_settled && more < kMostTraversals; ++more) {
+            FrameReport next = paper_[i]->refine(cameras_[i], options);
+            report.split_count += next.split_count, report.collapse_count += next.collapse_count;
+            report.forced_count += next.forced_count, report.evaluated_count += next.evaluated_count;
+            report.triangle_count = next.triangle_count, report.is_settled = next.is_settled;
+        }
+        take(report, i == 0);
         uint64_t wrong = 0;
         paper_[i]->collect(by_surface, wrong);
         buffers_[i]->take(by_surface);
@@ -97,6 +110,7 @@ void FrameDrawer::decide_paper() {
         counts_.wrong_corner_count = wrong;
         paper_faces_ = by_surface;
     }
+    is_first_ = false;
     for (const auto& camera : paper_) {
         paper::Equation1 terms = paper::equation1(paper_mesh_->nodes().size(), mesh_.face_count(), 0, 0, 0,
                                                   camera->active_node_count(), camera->active_polygon_count(), 1);

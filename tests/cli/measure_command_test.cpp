@@ -68,8 +68,9 @@ TEST_F(Measure, RefusesABadScene) {
     expect_refused(with_scene(folder_ / "sample/dem.tif"), 3, {"dem.tif"});
     write_text(bad, R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "terrain"}]})");
     expect_refused(with_scene(bad), 3, {"a.ovl", "No such file"});
-    write_text(bad, R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "caveclod"}]})");
-    expect_refused(with_scene(bad), 5, {"/layers/0/method", "caveclod cannot be measured yet"});
+    write_text(bad, R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "terrain"},
+                                                 {"asset": "a.ovl", "method": "terrain"}]})");
+    expect_refused(with_scene(bad), 5, {bad, "has 2 layers", "one terrain or mesh"});
 }
 
 TEST_F(Measure, RefusesABadFlight) {

@@ -164,9 +164,11 @@ TEST_F(Player, RefusesScenesThatItCannotDraw) {
     };
     for (const Case& c : std::initializer_list<Case>{
              {R"({"asset":"hills.ovl","method":"terrain"},{"asset":"hills.ovl","method":"terrain"})", 5,
-              "scene.json: /layers/1: the player draws one terrain at a time; leave one layer\n"},
-             {R"({"asset":"hills.ovl","method":"caveclod"})", 5,
-              "scene.json: /layers/0/method: the player cannot draw caveclod yet; it draws terrain and lod-sprite\n"},
+              "scene.json: /layers/1: the player draws one thing at a time; leave one layer\n"},
+             {R"({"asset":"hills.ovl","method":"wang-ldi"})", 5,
+              "scene.json: /layers/0/method: the player cannot draw wang-ldi yet; it draws terrain, lod-sprite, caveclod and "
+              "discrete\n"},
+             {R"({"asset":"hills.ovl","method":"caveclod"})", 3, "hills.ovl is a terrain\n"},
              {R"({"asset":"hills.ovl","method":"lod-sprite:papr"})", 3,
               "scene.json: /layers/0/method: lod-sprite has no variant papr\n"},
              {R"({"asset":"hills.ovl","method":"lod-sprite","settings":{"low_eror_px":4}})", 3,
