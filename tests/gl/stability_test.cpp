@@ -9,34 +9,12 @@
 #include "formats/atomic_file.h"
 #include "tests/formats/schema_faults.h"
 #include "tests/formats/scratch_folder.h"
-#include "tests/gl/fixture.h"
+#include "tests/gl/stability_hills.h"
 #include "tools/measure/stability/kept.h"
 #include "tools/measure/stability/report.h"
 
 namespace overlook::measure {
 namespace {
-
-// The fixture's hills, flown over northwards in small steps.
-struct Hills {
-    World world;
-    scene::Flight flight;
-
-    Hills() {
-        world.name = "hills";
-        world.content_hash = "the same hills";
-        world.terrain = std::make_unique<terrain::Terrain>(test::hilly_terrain(129));
-        world.refiner.emplace(*world.terrain);
-        world.look.anisotropy = 1;
-        EXPECT_TRUE(upload(world));
-        view::Camera camera = test::from_south(*world.terrain, 96, 96);
-        world.base = camera;
-        flight.interpolation = scene::Interpolation::linear;
-        const glm::dvec3& at_m = camera.position_m;
-        flight.keys.push_back({0, {at_m.x, at_m.y, at_m.z}, camera.heading_deg, camera.pitch_deg, {}});
-        flight.keys.push_back({3, {at_m.x, at_m.y + 90, at_m.z}, camera.heading_deg, camera.pitch_deg, {}});
-    }
-    Stage stage(const gl::Renderer& renderer, uint32_t frames) { return {world, renderer, 96, 96, frames, 1, ""}; }
-};
 
 Finding found(CaseRunner run, Stage stage, const Case& each, const scene::Flight& flight, const char* method) {
     std::vector<MethodSpec> specs = *specs_from({method}, {});

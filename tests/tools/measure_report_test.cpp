@@ -7,9 +7,9 @@
 
 #include "tests/formats/schema_faults.h"
 #include "tests/formats/scratch_folder.h"
+#include "tests/tools/measure_made_course.h"
 #include "tools/measure/deliver.h"
 #include "tools/measure/figures.h"
-#include "tools/measure/methods.h"
 #include "tools/measure/page.h"
 #include "tools/measure/page_text.h"
 
@@ -17,56 +17,6 @@ namespace overlook::measure {
 namespace {
 
 using Json = nlohmann::json;
-
-WorstFrame worst_of(uint32_t frame, double value) {
-    WorstFrame worst{true, frame, value, {4, 4, std::vector<uint8_t>(48, 90)}, {4, 4, std::vector<uint8_t>(48, 80)}, {}};
-    worst.map.assign(16, 0.0f);
-    worst.map[0] = 0.5f;
-    return worst;
-}
-
-// Ten frames; frame i costs base + i milliseconds and has E e + i / 1000 on every fifth.
-RunResult run_of(const MethodSpec& spec, double base_ms, double e) {
-    RunResult run;
-    run.spec = spec;
-    run.label = label_of(spec);
-    for (uint32_t i = 0; i < 10; ++i) {
-        FrameRecord record;
-        record.frame = i;
-        record.counters.triangle_count = 1000 + i;
-        record.counters.predicted_error_px = is_floor(spec) ? 0 : setting(spec, "error-px") / 2;
-        record.decide_ms = 1;
-        record.draw_ms = base_ms + i - 1;
-        if (i % 5 == 0) record.numbers.e_p99 = record.numbers.e_mean = e + i / 1000.0;
-        if (i > 0) record.numbers.w = e / 10;
-        record.numbers.s_p95_px = record.numbers.s_max_px = 1;
-        record.numbers.hole_count = record.numbers.hole_allowed_count = 0;
-        record.numbers.psnr_db = 40;
-        record.numbers.luma_difference = 0.01;
-        run.frames.push_back(record);
-    }
-    if (!is_floor(spec)) {
-        for (uint32_t frame : {0u, 9u}) {
-            std::vector<float> predicted_px = {0.5f, 1, 0}, measured_px = {0.25f, 0.75f, 0};
-            run.frames[frame].numbers.g = run.g.add(predicted_px, measured_px);
-        }
-    }
-    run.worst_e = worst_of(5, e + 0.005);
-    run.worst_w = worst_of(3, e / 10);
-    return run;
-}
-
-CourseResult a_course() {
-    CourseResult course;
-    course.runs.push_back(run_of(*parse_method("terrain@error-px=1"), 5, 0.2));
-    course.runs.push_back(run_of(*parse_method("terrain@error-px=4"), 2, 0.4));
-    course.runs.push_back(run_of(floor_spec(4), 50, 0.1));
-    for (RunResult& run : course.runs) run.floor = 2;
-    course.runs[1].pop.index = 3;
-    course.runs[1].pop.frame = 3;
-    course.references_drawn = 10;
-    return course;
-}
 
 RunSetup a_setup() {
     RunSetup setup;
@@ -183,61 +133,6 @@ TEST(RunsJson, OfAnotherFormDoesNotKeepTheSchema) {
     }
     runs["date"] = "today";
     EXPECT_EQ(faults_of(runs), std::vector<std::string>{": has date"});
-}
-
-TEST(Gates, AreBrokenByAPopAHoleOrABrokenPromise) {
-    CourseResult course = a_course();
-    for (const Gate& gate : gates_of(course.runs[0])) EXPECT_TRUE(gate.is_kept()) << gate.name;
-    auto broken = [](const RunResult& run) {
-        std::string names;
-        for (const Gate& gate : gates_of(run)) names += gate.is_kept() ? "" : std::string(gate.name) + " ";
-        return names;
-    };
-    EXPECT_EQ(broken(course.runs[1]), "pop_index ");
-    course.runs[0].frames[7].numbers.hole_count = 1;
-    EXPECT_EQ(broken(course.runs[0]), "hole_px ");
-    course.runs[0].frames[7].numbers.hole_count = 0;
-    course.runs[0].frames[7].counters.predicted_error_px = 1.01;
-    EXPECT_EQ(broken(course.runs[0]), "predicted_error_px ");
-}
-
-TEST(Gates, AreBrokenByADishonestOrAnIdlePromise) {
-    auto broken = [](float predicted, float measured) {
-        RunResult run = a_course().runs[0];
-        for (int i = 0; i < 9; ++i) run.g.add(std::vector<float>{predicted}, std::vector<float>{measured});
-        std::string names;
-        for (const Gate& gate : gates_of(run)) names += gate.is_kept() ? "" : std::string(gate.name) + " ";
-        return names;
-    };
-    EXPECT_EQ(broken(1, 1), "");
-    EXPECT_EQ(broken(1, 1.001f), "g_max ");
-    EXPECT_EQ(broken(0, 0.001f), "g_max ");
-    EXPECT_EQ(broken(1, 0.2f), "g_median ");
-    EXPECT_EQ(gates_of(a_course().runs[2]).size(), 2u);  // the floor promises nothing
-}
-
-TEST(Gates, HoldABudgetOnceItHasSettled) {
-    RunResult run = run_of(*parse_method("terrain@triangles=1000"), 5, 0.2);
-    for (FrameRecord& frame : run.frames) frame.frame += 20;
-    run.frames[0].frame = 19;
-    run.frames[0].counters.triangle_count = 5000;
-    run.frames[0].counters.predicted_error_px = 7;
-    for (const Gate& gate : gates_of(run)) EXPECT_TRUE(gate.is_kept()) << gate.name;
-    run.frames[1].counters.triangle_count = 1051;
-    std::vector<Gate> gates = gates_of(run);
-    auto gate = std::find_if(gates.begin(), gates.end(), [](const Gate& one) { return one.name == "triangles"; });
-    ASSERT_NE(gate, gates.end());
-    EXPECT_FALSE(gate->is_kept());
-}
-
-TEST(Gates, AreAtTheFloorWithinTwoPercent) {
-    CourseResult course = a_course();
-    EXPECT_TRUE(is_at_floor(course.runs[2], course.runs[2]));
-    EXPECT_FALSE(is_at_floor(course.runs[0], course.runs[2]));
-    RunResult near = run_of(*parse_method("terrain"), 5, 0.101);
-    EXPECT_TRUE(is_at_floor(near, course.runs[2]));
-    near = run_of(*parse_method("terrain"), 5, 0.105);
-    EXPECT_FALSE(is_at_floor(near, course.runs[2]));
 }
 
 TEST(Sentences, SayHowBadAWorstFrameIsAndWhere) {

@@ -69,7 +69,7 @@ Result<Finding> key_switches(const Stage& stage, const MethodSpec& spec, const s
                              double step_s) {
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
     if (!target) return tl::unexpected(target.error());
-    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
     uint64_t switches = 0, while_still = 0, first_second = 0;
     uint32_t last = 0;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
@@ -123,7 +123,7 @@ Result<std::vector<double>> costs_of(Stage& stage, const MethodSpec& spec, const
                                      double budget, double share) {
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
     if (!target) return tl::unexpected(target.error());
-    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
     if (!method->set_triangles(budget)) return impossible("{}: keeps no budget of triangles", label_of(spec));
     std::vector<double> costs;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
@@ -209,7 +209,7 @@ Result<std::vector<Finding>> run_slopes(Stage& stage, const Case&, const scene::
         HonestyTally tally;
         uint32_t worst_frame = 0;
         double worst_px = -1;
-        std::unique_ptr<Method> method = make_method(spec, stage.world);
+        std::unique_ptr<Method> method = stage.make(spec, stage.world);
         for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
             method->decide(cameras[frame], frame);
             std::optional<Promises> promises = method->promises();

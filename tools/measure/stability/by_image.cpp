@@ -54,7 +54,7 @@ Result<Ridge> fly_ridge(Stage& stage, const MethodSpec& spec, const std::vector<
     if (!middle) return tl::unexpected(middle.error());
     uint32_t most = stage.frames == 0 ? kMostJudged : stage.frames;
     std::vector<uint32_t> judged = spread_frames(uint32_t(cameras.size()), most);
-    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
     Ridge ridge;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         method->decide(cameras[frame], frame);
@@ -82,7 +82,7 @@ double fade_frames_of(const MethodSpec& spec) {
 Result<std::optional<uint32_t>> first_takeover(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras) {
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
     if (!target) return tl::unexpected(target.error());
-    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
     bool has_key = false;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         method->decide(cameras[frame], frame);
@@ -147,7 +147,7 @@ class Watched {
 
   private:
     Watched(Stage& stage, const MethodSpec& spec)
-        : method_(make_method(spec, stage.world)), floor_(make_method(floor_spec(samples_of(spec)), stage.world)) {}
+        : method_(stage.make(spec, stage.world)), floor_(make_method(floor_spec(samples_of(spec)), stage.world)) {}
 
     Frame seen(Method& method, const view::Camera& camera) {
         ImageRgb8 shown = target_->read();

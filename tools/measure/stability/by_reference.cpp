@@ -68,7 +68,7 @@ Result<uint64_t> pixels_cut(Stage& stage, const MethodSpec& spec, const view::Ca
     if (!target) return tl::unexpected(target.error());
     view::Camera closer = camera;
     closer.near_m *= kNearer;
-    std::unique_ptr<Method> method = make_method(spec, stage.world);
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
     method->decide(closer, 0);
     method->draw(*target);
     Frame frame = captured(*target, *target, closer);
@@ -194,7 +194,7 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
     for (size_t i = 0; i < specs.size(); ++i) {
         Finding& finding = (*findings)[i];
         if (is_image(specs[i])) {
-            std::unique_ptr<Method> method = make_method(specs[i], stage.world);
+            std::unique_ptr<Method> method = stage.make(specs[i], stage.world);
             uint32_t frame = 0, longest = 0;
             for (const view::Camera& camera : arrivals) {
                 Result<uint32_t> waited = frames_until_promised(stage, specs[i], *method, camera, frame);

@@ -104,7 +104,7 @@ Result<std::vector<Finding>> run_cameras(Stage& stage, const Case& each, const s
         legs_of(cameras_of(stage, flight, Pick::all), count, most, pick_of(specs, Pick::spread));
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
-        Result<Together> together = fly_together([&] { return make_method(spec, stage.world); }, legs, samples_of(spec));
+        Result<Together> together = fly_together([&] { return stage.make(spec, stage.world); }, legs, samples_of(spec));
         if (!together) return tl::unexpected(together.error());
         Finding finding;
         finding.figures["cameras_that_differ"] = together->cameras_that_differ;
@@ -127,7 +127,7 @@ Result<std::vector<Finding>> run_moved_world(Stage& stage, const Case& each, con
         Finding finding;
         double worst = 0;
         for (double move_m : each.settings.world_moves_m) {
-            std::unique_ptr<Method> at_home = make_method(spec, stage.world), far_away = make_method(spec, stage.world);
+            std::unique_ptr<Method> at_home = stage.make(spec, stage.world), far_away = stage.make(spec, stage.world);
             double worst_here = 0;
             for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
                 Result<ImageRgb8> home = draw_once(*at_home, cameras[frame], frame, samples_of(spec));
@@ -169,7 +169,7 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
         Finding finding;
-        std::unique_ptr<Method> method = make_method(spec, stage.world);
+        std::unique_ptr<Method> method = stage.make(spec, stage.world);
         uint64_t stale = 0, same_hashes = 0;
         for (size_t i = 0; i < shares.size(); ++i) {
             size_t begin = (i + 1) * (cameras.size() - kSettled - 1) / (shares.size() + 1);
@@ -185,7 +185,7 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
                 if (!picture) return tl::unexpected(picture.error());
                 // A method with history starts afresh where the size changed, and flies the same frames.
                 if (is_image(spec) || after == kSettled) {
-                    if (!is_image(spec) || after == 0) starting = make_method(spec, stage.world);
+                    if (!is_image(spec) || after == 0) starting = stage.make(spec, stage.world);
                     fresh = draw_once(*starting, camera, after, samples_of(spec));
                 }
                 if (after < kSettled) continue;
@@ -210,7 +210,7 @@ Result<std::vector<Finding>> run_back_and_forth(Stage& stage, const Case&, const
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
         Finding finding;
-        std::unique_ptr<Method> method = make_method(spec, stage.world);
+        std::unique_ptr<Method> method = stage.make(spec, stage.world);
         std::vector<ImageRgb8> forwards;
         uint32_t step = 0;
         for (const view::Camera& camera : cameras) {

@@ -145,7 +145,7 @@ Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flig
     if (!by_rows) return tl::unexpected(by_rows.error());
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, 1);
     if (!target) return tl::unexpected(target.error());
-    std::unique_ptr<Method> columns = make_method(spec, *by_columns), rows = make_method(spec, *by_rows);
+    std::unique_ptr<Method> columns = stage.make(spec, *by_columns), rows = stage.make(spec, *by_rows);
     ReuseTruth truth(stage.world);
     Shear shear(*stage.world.terrain);
     Finding finding;

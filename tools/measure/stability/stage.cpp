@@ -45,7 +45,7 @@ Result<ImageRgb8> draw_once(Method& method, const view::Camera& camera, uint32_t
 }
 
 Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame) {
-    Result<ImageRgb8> test = draw_once(*make_method(spec, stage.world), camera, frame, samples_of(spec));
+    Result<ImageRgb8> test = draw_once(*stage.make(spec, stage.world), camera, frame, samples_of(spec));
     if (!test) return tl::unexpected(test.error());
     Result<ReferenceRenderer> renderer =
         ReferenceRenderer::make(stage.world, stage.renderer, camera.width_px, camera.height_px, stage.cache_folder);

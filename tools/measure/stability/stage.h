@@ -14,6 +14,9 @@
 
 namespace overlook::measure {
 
+// How a case comes by a method: make_method, or what breaks one to see that its gates are missed.
+using MethodMaker = std::function<std::unique_ptr<Method>(const MethodSpec&, World&)>;
+
 struct Stage {
     World& world;  // uploaded
     gl::Renderer renderer;
@@ -23,6 +26,7 @@ struct Stage {
     std::string cache_folder;    // for reference frames; empty = none
     std::string kept_folder{};   // for findings, so that a run that was broken off goes on; empty = none
     std::string program_hash{};  // of what finds them
+    MethodMaker make = make_method;
 };
 
 // A frame beside what it should have been.

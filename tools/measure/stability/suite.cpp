@@ -74,7 +74,8 @@ Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const Meth
                 suite_stage.asked_px,
                 suite_stage.cache_folder,
                 suite_stage.kept_folder,
-                suite_stage.program_hash};
+                suite_stage.program_hash,
+                suite_stage.make};
     for (const std::vector<MethodSpec>& concerned : {geometry, image}) {
         if (concerned.empty()) continue;
         Result<std::vector<Finding>> findings = findings_of(stage, each, run, concerned);
