@@ -19,15 +19,21 @@ std::vector<view::Camera> cameras_round(const view::Camera& camera, uint32_t cou
 FrameDrawer::FrameDrawer(const Hierarchy& hierarchy, const Mesh& mesh, const Drawing& drawing, const FrameOptions& options)
     : mesh_(mesh), drawing_(drawing), options_(options), reports_(options.cameras) {
     if (options.variant == Variant::paper) paper_mesh_ = std::make_unique<paper::Mesh>(hierarchy);
-    bool is_one = options.variant == Variant::shared;
-    for (uint32_t i = 0; i < options.cameras; ++i) {
+    start();
+}
+
+void FrameDrawer::start() {
+    paper_.clear(), refinements_.clear(), buffers_.clear();
+    bool is_one = options_.variant == Variant::shared;
+    for (uint32_t i = 0; i < options_.cameras; ++i) {
         if (paper_mesh_) {
             paper_.push_back(std::make_unique<paper::CameraRefinement>(*paper_mesh_));
         } else if (i == 0 || !is_one) {
-            refinements_.push_back(std::make_unique<Refinement>(mesh));
+            refinements_.push_back(std::make_unique<Refinement>(mesh_));
         }
-        if (i == 0 || !is_one) buffers_.push_back(std::make_unique<CameraBuffers>(mesh));
+        if (i == 0 || !is_one) buffers_.push_back(std::make_unique<CameraBuffers>(mesh_));
     }
+    is_first_ = true;
 }
 
 void FrameDrawer::take(const FrameReport& report, bool is_drawn) {
@@ -41,6 +47,8 @@ void FrameDrawer::take(const FrameReport& report, bool is_drawn) {
 }
 
 void FrameDrawer::decide(const view::Camera& camera, double dt_s) {
+    bool is_resized = !cameras_.empty() && (cameras_[0].width_px != camera.width_px || cameras_[0].height_px != camera.height_px);
+    if (is_resized) start();
     cameras_ = cameras_round(camera, options_.cameras);
     counts_ = {};
     switch (options_.variant) {

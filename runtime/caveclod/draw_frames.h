@@ -33,7 +33,8 @@ class FrameDrawer {
   public:
     FrameDrawer(const Hierarchy& hierarchy, const Mesh& mesh, const Drawing& drawing, const FrameOptions& options);
 
-    // Brings all cameras' faces nearer to what they ask for, the first time all the way. dt_s: since the last frame.
+    // Brings all cameras' faces nearer to what they ask for, the first time all the way, and so when the picture's size has
+    // changed. dt_s: since the last frame.
     void decide(const view::Camera& camera, double dt_s);
     // Draws what was decided; may be called again with other targets, for the same picture.
     FrameCounts draw(const gl::Target& target, const DrawOptions& look);
@@ -48,6 +49,7 @@ class FrameDrawer {
     std::vector<glm::dvec3> drawn_corners_m() const;
 
   private:
+    void start();
     void decide_own(double dt_s);
     void decide_shared();
     void decide_paper();

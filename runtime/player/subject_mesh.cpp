@@ -15,7 +15,7 @@ namespace overlook::player {
 namespace {
 
 constexpr double kOverviewFov_deg = 42, kOverviewHeading_deg = -30, kOverviewPitch_deg = -20, kOverviewMargin = 1.1;
-constexpr double kNearShare = 1e-4;        // of the mesh's size; depths are reversed floats, so this costs no precision
+constexpr double kNearShare = 1e-6;        // of the mesh's size; depths are reversed floats, so this costs no precision
 constexpr double kLeastSpeedShare = 0.05;  // of the mesh's size in a second
 
 class MeshSubject : public Subject {

@@ -65,9 +65,10 @@ TEST(MeasuredMesh, KeepsItsPromisesInEveryVariant) {
                 EXPECT_LT(2 * frame.counters.triangle_count, full.frames[0].counters.triangle_count);
             }
         }
-        bool promises = run.spec.name == "caveclod" && run.spec.variant != "paper";
-        EXPECT_EQ(run.g.all().count > 0, promises);
-        EXPECT_LE(run.g.all().ratio_max, 1);
+        EXPECT_EQ(run.g.all().count > 0, !is_floor(run.spec));
+        if (run.spec.variant != "paper") {  // which draws what nobody measured
+            EXPECT_LE(run.g.all().ratio_max, 1);
+        }
     }
 }
 

@@ -5,7 +5,6 @@
 
 #include "runtime/caveclod/draw_frames.h"
 #include "runtime/caveclod/static_levels.h"
-#include "tools/measure/honesty/mesh_honesty.h"
 
 namespace overlook::measure {
 namespace {
@@ -43,7 +42,7 @@ class Caveclod : public Method {
         counters.operation_count = counts.split_count + counts.collapse_count;
         counters.camera_bytes = counts.camera_bytes;
         counters.wrong_corner_count = counts.wrong_corner_count;
-        counters.predicted_error_px = counts.error_px;
+        counters.predicted_error_px = predicted_error_px();
         return counters;
     }
 
@@ -55,19 +54,21 @@ class Caveclod : public Method {
         return true;
     }
 
-    // The paper's legality lets triangles be drawn that nobody has measured: it promises nothing.
     std::optional<Promises> promises() override {
-        if (frames_.options().variant == caveclod::Variant::paper) return std::nullopt;
-        if (!honesty_) honesty_.emplace(*world_.mesh->hierarchy);
-        return honesty_->promises_of(frames_.drawn_corners_m(), camera_, frames_.counts().error_px);
+        return world_.mesh->honesty().promises_of(frames_.drawn_corners_m(), camera_, predicted_error_px());
     }
 
   private:
+    // The paper's legality lets triangles be drawn that nobody has measured: its threshold is what it claims.
+    double predicted_error_px() const {
+        bool is_paper = frames_.options().variant == caveclod::Variant::paper;
+        return is_paper ? frames_.options().settings.error_px : frames_.counts().error_px;
+    }
+
     World& world_;
     caveclod::FrameDrawer frames_;
     view::Camera camera_;
     uint32_t last_frame_ = 0;
-    std::optional<MeshHonesty> honesty_;  // once it was asked for
 };
 
 class Discrete : public Method {
@@ -97,12 +98,23 @@ class Discrete : public Method {
         counters.tested_count = levels_.size();
         counters.resident_bytes = world_.resident_bytes + resident_bytes_;
         counters.event_count = event_count_;
-        // Against the file's finest, as the other methods.
-        counters.predicted_error_px = *level_ > 0 ? levels_.error_px(*level_, camera_) : 0;
+        counters.predicted_error_px = predicted_error_px();
         return counters;
     }
 
+    std::optional<Promises> promises() override {
+        std::vector<glm::dvec3> corners_m;
+        const caveclod::Mesh& mesh = *world_.mesh->mesh;
+        for (const std::vector<uint32_t>& indices : levels_[*level_].by_surface) {
+            for (uint32_t vertex : indices) corners_m.push_back(mesh.origin_m() + mesh.vertex_m(vertex));
+        }
+        return world_.mesh->honesty().promises_of(corners_m, camera_, predicted_error_px());
+    }
+
   private:
+    // Against the file's finest, as the other methods.
+    double predicted_error_px() const { return *level_ > 0 ? levels_.error_px(*level_, camera_) : 0; }
+
     World& world_;
     double error_px_;
     caveclod::StaticLevels levels_;

@@ -22,6 +22,8 @@ constexpr Member kCaseMembers[] = {
     {"note", Kind::text},
     {"scene", Kind::text},
     {"flight", Kind::text},
+    {"mesh_scene", Kind::text},
+    {"mesh_flight", Kind::text},
     {"settings", Kind::object},
     {"gates", Kind::array, true, 1, 8},
     {"methods", Kind::array, true, 1, 5},
@@ -65,6 +67,7 @@ constexpr std::string_view kFigures[] = {
     "changes_of_sign",
     "path_difference_grey",
 };
+constexpr std::string_view kMeshMethods[] = {"caveclod", "discrete"};
 constexpr std::string_view kSides[] = {"all", "geometry", "image"};
 
 template <class Names>
@@ -149,11 +152,21 @@ void check_whole(Form& form, const Case& made) {
     for (const Node& run : form.items(runs)) {
         if (!is_one_of(made.methods, run.value->text)) form.fail(run, run.value->text + " is not among the case's methods");
     }
-    if (!made.runs.empty() && (made.scene.empty() || made.flight.empty()))
-        form.fail(runs, "a case that runs needs a scene and a flight");
+    for (const Node& run : form.items(runs)) {
+        bool is_of_mesh = is_one_of(kMeshMethods, run.value->text);
+        bool has_scene = !made.scene.empty() || (is_of_mesh && !made.mesh_scene.empty());
+        bool has_flight = !made.flight.empty() || (is_of_mesh && !made.mesh_flight.empty());
+        if (!has_scene || !has_flight) form.fail(runs, "a case that runs needs a scene and a flight");
+    }
 }
 
 }  // namespace
+
+Case for_meshes(Case each) {
+    if (!each.mesh_scene.empty()) each.scene = each.mesh_scene;
+    if (!each.mesh_flight.empty()) each.flight = each.mesh_flight;
+    return each;
+}
 
 std::span<const std::string_view> figure_names() {
     return kFigures;
@@ -172,6 +185,8 @@ Result<Case> parse_case(std::string_view text, const std::string& name) {
     made.note = form.text(form.root(), "note", "");
     made.scene = form.text(form.root(), "scene", "");
     made.flight = form.text(form.root(), "flight", "");
+    made.mesh_scene = form.text(form.root(), "mesh_scene", "");
+    made.mesh_flight = form.text(form.root(), "mesh_flight", "");
     made.settings = read_settings(form, form.member(form.root(), "settings"));
     for (const Node& gate : form.items(form.member(form.root(), "gates"))) made.gates.push_back(read_gate(form, gate));
     made.methods = read_methods(form, form.member(form.root(), "methods"));
@@ -190,8 +205,9 @@ Result<std::vector<Case>> read_cases(const std::string& folder) {
         Result<Case> made = parse_case({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
         if (!made) return tl::unexpected(made.error());
         if (made->number != fmt::format("S{:02}", i)) return bad_input("{}: is case {}", path, made->number);
-        if (!made->scene.empty()) made->scene = folder + "/" + made->scene;
-        if (!made->flight.empty()) made->flight = folder + "/" + made->flight;
+        for (std::string* path_in : {&made->scene, &made->flight, &made->mesh_scene, &made->mesh_flight}) {
+            if (!path_in->empty()) *path_in = folder + "/" + *path_in;
+        }
         cases.push_back(std::move(*made));
     }
     return cases;

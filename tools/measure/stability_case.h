@@ -2,6 +2,7 @@
 //
 //     {"version": 1, "number": "S16", "what": "every seventh frame dropped",
 //      "scene": "../scenes/sample.json", "flight": "../flights/s01.json",     paths relative to the case's file
+//      "mesh_scene": "../scenes/sample-mesh.json", "mesh_flight": "...",      for methods that draw meshes; may be left out
 //      "settings": {"drop_every": 7},
 //      "gates": [{"figure": "pop_index_ratio", "most": 1.1}],
 //      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"],
@@ -46,12 +47,17 @@ struct Case {
     std::string number;  // "S01" .. "S20"
     std::string what;
     std::string scene, flight;  // paths; empty = not there yet
+    // Of methods that draw meshes, where those fly over something of their own; empty = as the others.
+    std::string mesh_scene{}, mesh_flight{};
     CaseSettings settings;
     std::vector<CaseGate> gates;
     std::vector<std::string> methods;  // of scene::kMethods
     std::vector<std::string> runs;     // of methods
     std::string note{};                // what is known of a gate that is missed; empty = nothing
 };
+
+// The case as methods that draw meshes fly it.
+Case for_meshes(Case each);
 
 // The names of the figures that a gate may hold.
 std::span<const std::string_view> figure_names();

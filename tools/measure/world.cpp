@@ -39,7 +39,7 @@ Result<double> read_terrain(const container::Reader& file, World& world) {
 }
 
 Result<double> read_mesh(const container::Reader& file, World& world) {
-    constexpr double kNearShare = 1e-4;  // of its size
+    constexpr double kNearShare = 1e-6;  // of its size; depths are reversed floats, so this costs no precision
     Result<caveclod::Hierarchy> hierarchy = caveclod::read(file);
     if (!hierarchy) return tl::unexpected(hierarchy.error());
     Result<caveclod::Mesh> mesh = caveclod::Mesh::make(*hierarchy);
@@ -77,6 +77,11 @@ Result<World> read_world(const std::string& path) {
     world.base.fov_y_deg = scene->camera.fov_y_deg;
     world.base.near_m = scene->camera.near_m.value_or(*near_m * world.transform.scale);
     return world;
+}
+
+const MeshHonesty& MeshWorld::honesty() {
+    if (!honesty_) honesty_ = std::make_unique<MeshHonesty>(*hierarchy);
+    return *honesty_;
 }
 
 view::Camera World::local(const view::Camera& camera) const {

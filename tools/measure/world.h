@@ -11,6 +11,7 @@
 #include "runtime/caveclod/mesh.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
+#include "tools/measure/honesty/mesh_honesty.h"
 
 namespace overlook::measure {
 
@@ -19,6 +20,12 @@ struct MeshWorld {
     std::unique_ptr<caveclod::Mesh> mesh;
     std::optional<caveclod::Drawing> drawing;
     caveclod::DrawOptions look;
+
+    // What its promises are judged by; made when it is first asked for.
+    const MeshHonesty& honesty();
+
+  private:
+    std::unique_ptr<MeshHonesty> honesty_;
 };
 
 // Holds a terrain or a mesh. Must go before the context that it was uploaded to.

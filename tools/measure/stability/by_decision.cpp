@@ -94,6 +94,37 @@ Result<Finding> key_switches(const Stage& stage, const MethodSpec& spec, const s
     return finding;
 }
 
+// What switches in a mesh: splits and collapses, and levels exchanged for the whole of it.
+Result<Finding> operations_at_rest(const Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
+                                   double step_s) {
+    Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
+    if (!target) return tl::unexpected(target.error());
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
+    uint64_t switches = 0, while_still = 0, first_second = 0;
+    uint32_t last = 0;
+    for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+        method->decide(cameras[frame], frame);
+        Counters counters = method->draw(*target);
+        uint64_t changes = counters.operation_count + counters.event_count;
+        if (changes == 0) continue;
+        last = frame;
+        bool is_after = frame > 0 && (frame - 1) * step_s >= 1;
+        (is_after ? switches : first_second) += changes;
+        if (is_after && stands_still(cameras[frame - 1], cameras[frame])) while_still += changes;
+    }
+    Finding finding;
+    finding.figures["switches_after_first_second"] = double(switches);
+    finding.frames = uint32_t(cameras.size());
+    finding.sentence = fmt::format(
+        "{} splits and collapses in the first second and {} after it, {} of these while the camera stood still; the last one in "
+        "frame {}.",
+        first_second, switches, while_still, last);
+    Result<Shot> shot = shot_of(stage, spec, cameras[last], last);
+    if (!shot) return tl::unexpected(shot.error());
+    finding.worst = std::move(*shot);
+    return finding;
+}
+
 // What a flight of counted triangles under a budget halved at `middle` showed.
 struct Budgeted {
     uint32_t frames_until_met = 0;
@@ -124,7 +155,7 @@ Result<std::vector<double>> costs_of(Stage& stage, const MethodSpec& spec, const
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
     if (!target) return tl::unexpected(target.error());
     std::unique_ptr<Method> method = stage.make(spec, stage.world);
-    if (!method->set_triangles(budget)) return impossible("{}: keeps no budget of triangles", label_of(spec));
+    method->set_triangles(budget);
     std::vector<double> costs;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         if (frame == cameras.size() / 2) method->set_triangles(share * budget);
@@ -134,9 +165,22 @@ Result<std::vector<double>> costs_of(Stage& stage, const MethodSpec& spec, const
     return costs;
 }
 
+Result<Finding> keeps_no_budget(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    Finding finding;
+    for (const char* name : {"budget_miss_share", "frames_until_budget_met", "changes_of_sign"}) finding.figures[name] = kNever;
+    finding.frames = uint32_t(cameras.size());
+    finding.sentence = "It keeps no budget of triangles.";
+    Result<Shot> shot = shot_of(stage, spec, cameras.back(), uint32_t(cameras.size() - 1));
+    if (!shot) return tl::unexpected(shot.error());
+    finding.worst = std::move(*shot);
+    return finding;
+}
+
 // The budget before it is halved is so much of what a frame takes on the average without one.
-Result<Finding> halved_budget_of_keys(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
+Result<Finding> halved_budget_by_method(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
                                       double share) {
+    if (!stage.make(spec, stage.world)->set_triangles(0)) return keeps_no_budget(stage, spec, cameras);
     size_t middle = cameras.size() / 2;
     std::vector<view::Camera> first_half(cameras.begin(), cameras.begin() + ptrdiff_t(middle));
     Result<std::vector<double>> free = costs_of(stage, spec, first_half, 0, 1);
@@ -153,10 +197,9 @@ Result<Finding> halved_budget_of_keys(Stage& stage, const MethodSpec& spec, cons
     finding.frames = uint32_t(cameras.size());
     auto [least, most] = std::minmax_element(costs->begin() + ptrdiff_t(middle + kSettled), costs->end());
     finding.sentence = fmt::format(
-        "A frame takes {:.0f} triangles without a budget, those drawn into keys included. {:.0f} allowed from frame {} on: "
-        "{:.0f} "
-        "to {:.0f} drawn, {} frames after that.",
-        mean, share * budget, middle, *least, *most, kSettled);
+        "A frame takes {:.0f} triangles without a budget{}. {:.0f} allowed from frame {} on: {:.0f} to {:.0f} drawn, {} frames "
+        "after that.",
+        mean, is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled);
     Result<Shot> shot = shot_of(stage, spec, cameras.back(), uint32_t(cameras.size() - 1));
     if (!shot) return tl::unexpected(shot.error());
     finding.worst = std::move(*shot);
@@ -170,8 +213,9 @@ Result<std::vector<Finding>> run_jitter(Stage& stage, const Case&, const scene::
     std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
-        if (is_image(spec)) {
-            Result<Finding> finding = key_switches(stage, spec, cameras, flight.step_s);
+        if (is_image(spec) || stage.world.is_mesh()) {
+            Result<Finding> finding = stage.world.is_mesh() ? operations_at_rest(stage, spec, cameras, flight.step_s)
+                                                            : key_switches(stage, spec, cameras, flight.step_s);
             if (!finding) return tl::unexpected(finding.error());
             findings.push_back(std::move(*finding));
             continue;
@@ -238,8 +282,8 @@ Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, c
     size_t middle = cameras.size() / 2;
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
-        if (is_image(spec)) {
-            Result<Finding> finding = halved_budget_of_keys(stage, spec, cameras, each.settings.budget_share);
+        if (is_image(spec) || stage.world.is_mesh()) {
+            Result<Finding> finding = halved_budget_by_method(stage, spec, cameras, each.settings.budget_share);
             if (!finding) return tl::unexpected(finding.error());
             findings.push_back(std::move(*finding));
             continue;

@@ -61,6 +61,32 @@ Result<uint32_t> frames_until_promised(Stage& stage, const MethodSpec& spec, Met
     return kLongestWait;
 }
 
+// The greatest displacement of each frame of a mesh, one after the other.
+std::vector<double> displacements_in_row(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras) {
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
+    std::vector<double> displacements_px;
+    for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+        method->decide(cameras[frame], frame);
+        displacements_px.push_back(displacement_of(*method));
+    }
+    return displacements_px;
+}
+
+// How many frames of a mesh after each arrival, the first counting as 0, until what was asked is kept; at most kLongestWait.
+uint32_t frames_until_kept(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& arrivals) {
+    constexpr uint32_t kLongestWait = 60;
+    std::unique_ptr<Method> method = stage.make(spec, stage.world);
+    uint32_t frame = 0, longest = 0;
+    for (const view::Camera& camera : arrivals) {
+        for (uint32_t waited = 0; waited < kLongestWait; ++waited) {
+            method->decide(camera, frame++);
+            if (displacement_of(*method) <= stage.asked_px) break;
+            longest = std::max(longest, waited + 1);
+        }
+    }
+    return longest;
+}
+
 // Pixels of the frame in which the surface stands nearer than the near plane.
 Result<uint64_t> pixels_cut(Stage& stage, const MethodSpec& spec, const view::Camera& camera) {
     constexpr double kNearer = 1.0 / 16;
@@ -143,7 +169,7 @@ Result<std::vector<Finding>> run_dolly(Stage& stage, const Case&, const scene::F
             run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median);
         if (is_image(specs[i])) {
             finding.sentence += events_sentence(run);
-        } else {
+        } else if (!stage.world.is_mesh()) {
             Result<double> change = change_by_triangles(stage, specs[i], cameras);
             if (!change) return tl::unexpected(change.error());
             finding.figures["change_by_triangles"] = *change;
@@ -163,7 +189,9 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
         Finding& finding = (*findings)[i];
         double worst_px = 0, above = 0;
         std::vector<double> errors_px = finding.promised_px;
-        if (!is_image(specs[i])) {
+        if (stage.world.is_mesh()) {
+            errors_px = displacements_in_row(stage, specs[i], cameras);
+        } else if (!is_image(specs[i])) {
             errors_px.clear();
             for (const view::Camera& camera : cameras) errors_px.push_back(displacement_of(stage, specs[i], camera).measured_px);
         }
@@ -193,6 +221,14 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
     if (!findings) return findings;
     for (size_t i = 0; i < specs.size(); ++i) {
         Finding& finding = (*findings)[i];
+        if (stage.world.is_mesh()) {
+            uint32_t longest = frames_until_kept(stage, specs[i], arrivals);
+            finding.figures["frames_until_error_met"] = longest;
+            finding.sentence = fmt::format(
+                "After a teleport it takes {} frames at most until nothing is drawn farther than {} px from its place, measured.",
+                longest, stage.asked_px);
+            continue;
+        }
         if (is_image(specs[i])) {
             std::unique_ptr<Method> method = stage.make(specs[i], stage.world);
             uint32_t frame = 0, longest = 0;

@@ -111,7 +111,7 @@ Result<std::vector<Finding>> run_cameras(Stage& stage, const Case& each, const s
         finding.frames = together->pictures;
         finding.worst = std::move(together->worst);
         finding.sentence = fmt::format(
-            "{} cameras over one terrain, frame by frame in turn: of {} the pictures are not those of flying "
+            "{} cameras over one world, frame by frame in turn: of {} the pictures are not those of flying "
             "alone.",
             count, together->cameras_that_differ == 0 ? "none" : std::to_string(together->cameras_that_differ));
         findings.push_back(std::move(finding));
@@ -184,8 +184,8 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
                 Result<ImageRgb8> picture = draw_once(*method, camera, uint32_t(begin) + after, samples_of(spec));
                 if (!picture) return tl::unexpected(picture.error());
                 // A method with history starts afresh where the size changed, and flies the same frames.
-                if (is_image(spec) || after == kSettled) {
-                    if (!is_image(spec) || after == 0) starting = stage.make(spec, stage.world);
+                if (has_history(spec) || after == kSettled) {
+                    if (!has_history(spec) || after == 0) starting = stage.make(spec, stage.world);
                     fresh = draw_once(*starting, camera, after, samples_of(spec));
                 }
                 if (after < kSettled) continue;

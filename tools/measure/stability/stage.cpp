@@ -1,6 +1,7 @@
 #include "tools/measure/stability/stage.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "runtime/view/flight.h"
 #include "tools/measure/honesty/terrain_honesty.h"
@@ -11,8 +12,12 @@ bool is_image(const MethodSpec& spec) {
     return spec.name == "lod-sprite";
 }
 
+bool has_history(const MethodSpec& spec) {
+    return is_image(spec) || spec.name == "caveclod";
+}
+
 Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry) {
-    return is_image(specs.front()) ? Pick::in_row : of_geometry;
+    return std::any_of(specs.begin(), specs.end(), has_history) ? Pick::in_row : of_geometry;
 }
 
 std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick) {
@@ -63,6 +68,12 @@ Displacement displacement_of(const Stage& stage, const MethodSpec& spec, const v
     float greatest = 0;
     for (float each : measured_px) greatest = std::max(greatest, each);
     return {double(greatest), cut.predicted_error_px};
+}
+
+double displacement_of(Method& method) {
+    std::optional<Promises> promises = method.promises();
+    if (!promises) return std::numeric_limits<double>::infinity();
+    return promises->measured_px.empty() ? 0 : double(promises->measured_px.front());
 }
 
 }  // namespace overlook::measure

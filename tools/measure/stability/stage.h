@@ -53,7 +53,9 @@ enum class Pick {
 // Whether a method shows pictures again: what a frame is then depends on the frames before it, and flights are flown in their
 // steps, the first stage.frames of them, where others may be taken frame by frame.
 bool is_image(const MethodSpec& spec);
-Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry);  // specs: all image or none
+// Whether a frame depends on the frames before it: as above, and of refinement that goes on from frame to frame.
+bool has_history(const MethodSpec& spec);
+Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry);  // specs: all with a history or none
 std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick);
 
 // One picture of a method as it stands. Fails with Exit::impossible (targets).
@@ -63,7 +65,7 @@ uint32_t samples_of(const MethodSpec& spec);
 // A frame of a new method and the reference's. Fails as ReferenceRenderer does.
 Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame);
 
-// One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods or none is.
+// One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods, all of methods of meshes, or neither.
 using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on frames beside the reference: S01, S03, S04, S06, S07, S08, S16.
@@ -96,6 +98,10 @@ struct Displacement {
     double measured_px = 0, predicted_px = 0;
 };
 Displacement displacement_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, double unsure_m = 0);
+
+// The greatest distance on the screen, pixels, between the source and what a method of meshes has decided to draw; infinite if it
+// cannot tell.
+double displacement_of(Method& method);
 
 // S11 of a method that shows pictures again: flown twice over the same ground painted with waves, so that each pixel tells which
 // place it shows; held against where full geometry has that place. Outlines are left out. Fails with Exit::impossible.

@@ -53,19 +53,12 @@ Result<std::vector<Finding>> findings_of(Stage& stage, const Case& each, CaseRun
     return findings;
 }
 
-Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const MethodSpec> specs, SuiteResult& result,
-                      const WorldOf& world_of) {
-    CaseRunner run = runner_of(each.number);
-    std::vector<MethodSpec> geometry, image;
-    for (const MethodSpec& spec : specs) {
-        if (run != nullptr && has(each.runs, spec.name)) (is_image(spec) ? image : geometry).push_back(spec);
-    }
-    for (const std::string& method : each.methods) {
-        if (run == nullptr || !has(each.runs, method)) result.owed.push_back({each.number, each.what, method});
-    }
-    if (geometry.empty() && image.empty()) return {};
+// For methods that one world serves.
+Result<void> run_case_for(Stage& suite_stage, const Case& each, CaseRunner run, std::span<const MethodSpec> concerned,
+                          SuiteResult& result, const WorldOf& world_of) {
     Result<World*> world = world_of ? world_of(each) : &suite_stage.world;
     if (!world) return tl::unexpected(world.error());
+    if (Result<void> draws = check_draws(concerned, **world); !draws) return draws;
     Stage stage{**world,
                 suite_stage.renderer,
                 suite_stage.width_px,
@@ -76,15 +69,32 @@ Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const Meth
                 suite_stage.kept_folder,
                 suite_stage.program_hash,
                 suite_stage.make};
-    for (const std::vector<MethodSpec>& concerned : {geometry, image}) {
+    Result<std::vector<Finding>> findings = findings_of(stage, each, run, concerned);
+    if (!findings) return tl::unexpected(findings.error());
+    for (size_t i = 0; i < concerned.size(); ++i) {
+        Finding& finding = (*findings)[i];
+        std::vector<HeldGate> gates = held(each, concerned[i], finding, stage.asked_px);
+        result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding), each.note});
+    }
+    return {};
+}
+
+Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const MethodSpec> specs, SuiteResult& result,
+                      const WorldOf& world_of) {
+    CaseRunner run = runner_of(each.number);
+    std::vector<MethodSpec> geometry, image, mesh;
+    for (const MethodSpec& spec : specs) {
+        if (run != nullptr && has(each.runs, spec.name))
+            (is_image(spec) ? image : draws_meshes(spec) ? mesh : geometry).push_back(spec);
+    }
+    for (const std::string& method : each.methods) {
+        if (run == nullptr || !has(each.runs, method)) result.owed.push_back({each.number, each.what, method});
+    }
+    for (const std::vector<MethodSpec>& concerned : {geometry, image, mesh}) {
         if (concerned.empty()) continue;
-        Result<std::vector<Finding>> findings = findings_of(stage, each, run, concerned);
-        if (!findings) return tl::unexpected(findings.error());
-        for (size_t i = 0; i < concerned.size(); ++i) {
-            Finding& finding = (*findings)[i];
-            std::vector<HeldGate> gates = held(each, concerned[i], finding, stage.asked_px);
-            result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding), each.note});
-        }
+        bool is_mesh = draws_meshes(concerned.front());
+        Result<void> ran = run_case_for(suite_stage, is_mesh ? for_meshes(each) : each, run, concerned, result, world_of);
+        if (!ran) return ran;
     }
     return {};
 }
@@ -96,7 +106,9 @@ bool Verdict::is_kept() const {
 }
 
 bool is_baseline(const MethodSpec& spec) {
-    return family_of(spec) == "terrain:hard" || family_of(spec) == "lod-sprite:paper";
+    static constexpr std::string_view kBaselines[] = {"terrain:hard", "lod-sprite:paper", "caveclod:paper", "caveclod:shared",
+                                                      "discrete"};
+    return std::find(std::begin(kBaselines), std::end(kBaselines), family_of(spec)) != std::end(kBaselines);
 }
 
 bool is_kept(const SuiteResult& result) {
