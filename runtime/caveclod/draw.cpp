@@ -84,7 +84,7 @@ void CameraBuffers::take_surface(const FaceSlots& faces, uint32_t surface) {
 void CameraBuffers::take(Refinement& refinement) {
     uploaded_bytes_ = 0;
     for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) take_surface(refinement.faces(), surface);
-    static_assert(sizeof(GlideVertex) == 12);
+    static_assert(sizeof(GlideVertex) == 24);  // two texels
     auto glides = std::as_bytes(refinement.glide_vertices());
     if (!glides.empty()) glides_.fill(glides);
     uploaded_bytes_ += glides.size();

@@ -67,10 +67,16 @@ void FrameDrawer::decide(const view::Camera& camera, double dt_s) {
 void FrameDrawer::decide_own(double dt_s) {
     std::vector<Refinement*> all;
     for (const auto& refinement : refinements_) all.push_back(refinement.get());
-    Settings settings = options_.settings;
-    if (is_first_) settings.most_operations = 0, settings.glide_s = 0;
+    if (is_first_) {
+        // All the way, and whatever could glide has arrived.
+        Settings at_once = options_.settings;
+        at_once.most_operations = 0;
+        refine_all(all, cameras_, at_once, 0, reports_);
+        for (size_t i = 0; i < all.size(); ++i) take(reports_[i], false);
+        dt_s = options_.settings.glide_s;
+    }
     is_first_ = false;
-    refine_all(all, cameras_, settings, dt_s, reports_);
+    refine_all(all, cameras_, options_.settings, dt_s, reports_);
     for (size_t i = 0; i < all.size(); ++i) {
         take(reports_[i], i == 0);
         buffers_[i]->take(*all[i]);
@@ -138,7 +144,8 @@ std::vector<glm::dvec3> FrameDrawer::drawn_corners_m() const {
     auto place_of = [&](uint32_t vertex) {
         if (vertex < mesh_.vertex_count()) return mesh_.vertex_m(vertex);
         const GlideVertex& glide = refinements_.front()->glide_vertices()[vertex - mesh_.vertex_count()];
-        return glm::mix(mesh_.vertex_m(glide.from), mesh_.vertex_m(glide.to), double(glide.share));
+        if (!glide.glides()) return mesh_.vertex_m(glide.to());
+        return glm::mix(mesh_.vertex_m(glide.from[0]), mesh_.vertex_m(glide.to()), double(glide.share));
     };
     auto add = [&](uint32_t vertex) { corners.push_back(mesh_.origin_m() + place_of(vertex)); };
     for (const std::vector<uint32_t>& indices : paper_faces_) std::for_each(indices.begin(), indices.end(), add);

@@ -6,7 +6,7 @@ namespace overlook::caveclod::shaders {
 // A vertex is one of the mesh, or from vertex_count on one on its way between two of them.
 inline constexpr char kMeshVertexInputs[] = R"(#version 450 core
 layout(binding = 1) uniform usamplerBuffer vertices;  // four words: position, high and low; normal; uv
-layout(binding = 2) uniform usamplerBuffer glides;    // to, from, the bits of the share
+layout(binding = 2) uniform usamplerBuffer glides;    // two texels each: to and whether it glides, the bits of the share, weights; from
 layout(binding = 3) uniform usamplerBuffer colours;   // red in the lowest byte
 uniform uint vertex_count;
 uniform uint low_bits;
@@ -71,13 +71,25 @@ void main() {
     if (id < vertex_count) {
         vertex = vertex_at(id);
     } else {
-        uvec3 glide = texelFetch(glides, int(id - vertex_count)).xyz;
-        Vertex to = vertex_at(glide.x), from = vertex_at(glide.y);
-        float share = uintBitsToFloat(glide.z);
-        vertex.relative_m = mix(from.relative_m, to.relative_m, share);
-        vertex.normal = mix(from.normal, to.normal, share);
-        vertex.uv = mix(from.uv, to.uv, share);
-        vertex.tint = mix(from.tint, to.tint, share);
+        int at = 2 * int(id - vertex_count);
+        uvec3 glide = texelFetch(glides, at).xyz, from = texelFetch(glides, at + 1).xyz;
+        bool glides_there = (glide.x & 0x80000000u) != 0u;
+        float share = uintBitsToFloat(glide.y);
+        Vertex to = vertex_at(glide.x & 0x7fffffffu), a = vertex_at(from.x);
+        vertex = a;
+        if (!glides_there) {
+            Vertex b = vertex_at(from.y), c = vertex_at(from.z);
+            vec2 weights = unpackUnorm2x16(glide.z);
+            float rest = 1.0 - weights.x - weights.y;
+            vertex.relative_m = to.relative_m;
+            vertex.normal = weights.x * a.normal + weights.y * b.normal + rest * c.normal;
+            vertex.uv = weights.x * a.uv + weights.y * b.uv + rest * c.uv;
+            vertex.tint = weights.x * a.tint + weights.y * b.tint + rest * c.tint;
+        }
+        vertex.relative_m = mix(vertex.relative_m, to.relative_m, share);
+        vertex.normal = mix(vertex.normal, to.normal, share);
+        vertex.uv = mix(vertex.uv, to.uv, share);
+        vertex.tint = mix(vertex.tint, to.tint, share);
     }
     surface.relative_m = placed(vertex.relative_m);
     surface.normal = vertex.normal;

@@ -1,5 +1,6 @@
 // Vertices on their way: Refinement's geomorphs.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "runtime/caveclod/refine.h"
@@ -18,20 +19,58 @@ uint32_t Refinement::take_glide_slot(const GlideVertex& vertex) {
     return slot;
 }
 
-// record_ is that of `split`, which is applied: its corners at the new position are replaced by gliding ones.
+// Of the split in record_, which is applied: what each of its new vertices comes from.
+void Refinement::find_sources(bool glides) {
+    constexpr double kNowhere = -1e300, kSteps = 65535;
+    sources_.clear(), inside_.clear();
+    auto source_of = [&](uint32_t to, uint32_t owner) {
+        for (size_t i = 0; i < sources_.size(); ++i)
+            if (sources_[i].to() == to) return i;
+        sources_.push_back({to | (glides ? GlideVertex::kGlides : 0), 0, {}, {owner, owner, owner}});
+        inside_.push_back(kNowhere);
+        return sources_.size() - 1;
+    };
+    for (const SplitRecord::Move& move : record_.moves) {
+        size_t source = source_of(move.vertex, move.vertex_before);
+        if (glides) continue;
+        uint32_t face = move.corner / kCorners, corner = move.corner % kCorners;
+        std::array<uint32_t, 3> from = {move.vertex_before, faces_.index_at(face * kCorners + (corner + 1) % 3),
+                                        faces_.index_at(face * kCorners + (corner + 2) % 3)};
+        if (std::max(from[1], from[2]) >= mesh_.vertex_count()) continue;  // on its way itself
+        glm::dvec3 to_m = mesh_.vertex_m(move.vertex), a = mesh_.vertex_m(from[0]);
+        glm::dvec3 ab = mesh_.vertex_m(from[1]) - a, ac = mesh_.vertex_m(from[2]) - a, normal = glm::cross(ab, ac);
+        double area = glm::dot(normal, normal);
+        if (area <= 0) continue;
+        double b = glm::dot(glm::cross(to_m - a, ac), normal) / area, c = glm::dot(glm::cross(ab, to_m - a), normal) / area;
+        double inside = std::min({1 - b - c, b, c});
+        if (inside <= inside_[source]) continue;
+        b = std::clamp(b, 0.0, 1.0), c = std::clamp(c, 0.0, 1 - b);
+        inside_[source] = inside;
+        sources_[source].from = from;
+        sources_[source].weights = {uint16_t((1 - b - c) * kSteps), uint16_t(b * kSteps)};
+    }
+    for (uint32_t k = 0; k < record_.face_count; ++k)
+        source_of(record_.faces[k].vertices[record_.faces[k].new_corner], record_.faces[k].vertices[0]);
+}
+
+// `split` is applied: its corners at the new position are replaced by ones on their way.
 void Refinement::start_glide(uint32_t split, bool is_collapsing, float share) {
     mesh_.decode(split, record_);
-    Glide glide{share, is_collapsing, {}};
-    auto gliding = [&](uint32_t to, uint32_t from) {
-        for (uint32_t slot : glide.slots)
-            if (glide_vertices_[slot].to == to && glide_vertices_[slot].from == from) return mesh_.vertex_count() + slot;
-        glide.slots.push_back(take_glide_slot({to, from, share}));
-        return mesh_.vertex_count() + glide.slots.back();
+    find_sources(mesh_.glides(split));
+    Glide glide{share, is_collapsing, mesh_.glides(split), {}};
+    for (GlideVertex& source : sources_) {
+        source.share = share;
+        glide.slots.push_back(take_glide_slot(source));
+    }
+    auto on_its_way = [&](uint32_t to) {
+        size_t i = 0;
+        while (sources_[i].to() != to) ++i;
+        return mesh_.vertex_count() + glide.slots[i];
     };
-    for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, gliding(move.vertex, move.vertex_before));
+    for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, on_its_way(move.vertex));
     for (uint32_t k = 0; k < record_.face_count; ++k) {
         const SplitRecord::Face& face = record_.faces[k];
-        faces_.set(face.face * kCorners + face.new_corner, gliding(face.vertices[face.new_corner], face.vertices[0]));
+        faces_.set(face.face * kCorners + face.new_corner, on_its_way(face.vertices[face.new_corner]));
     }
     put(gliding_, split, true);
     glides_.emplace(split, std::move(glide));

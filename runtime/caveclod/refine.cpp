@@ -22,11 +22,13 @@ void Refinement::evaluate(Frame& frame, uint32_t split) {
     auto answer = frame.test(split);
     if (has(applied_, split)) {
         if (has(gliding_, split)) {
+            Glide& glide = glides_.at(split);
+            if (answer.wants_split) glide.is_collapsing = false;
+            if (!glide.moves) return;  // it is drawn as split
             if (answer.must_split)
                 finish_glide(split);
             else
                 frame.report.error_px = std::max(frame.report.error_px, answer.seen_error_px);
-            if (answer.wants_split && !answer.must_split) glides_.at(split).is_collapsing = false;
             return;
         }
         if (answer.wants_collapse) {
@@ -36,7 +38,7 @@ void Refinement::evaluate(Frame& frame, uint32_t split) {
             reserve_.push_back({answer.error_px, split});
             std::push_heap(reserve_.begin(), reserve_.end(), std::greater<>());
         }
-    } else if (answer.wants_split) {
+    } else if (answer.must_split || (answer.wants_split && mesh_.glides(split))) {
         splits_.push_back({answer.error_px, split});
         std::push_heap(splits_.begin(), splits_.end());
     } else {
@@ -107,11 +109,18 @@ void Refinement::undo(Frame& frame, uint32_t split) {
     }
 }
 
-// Only what keeps the promise unsplit as well may be seen on its way.
+// Only what keeps the promise unsplit as well may be seen gliding on its way; what fades is drawn as split.
 bool Refinement::may_glide(const Frame& frame, const Wish& wish) const {
     const Settings& settings = frame.settings;
-    if (settings.glide_s <= 0 || !mesh_.glides(wish.split) || !(wish.error_px >= settings.least_glide_px)) return false;
-    return wish.error_px <= frame.test.least_limit_px();
+    if (settings.glide_s <= 0 || !(wish.error_px >= settings.least_glide_px)) return false;
+    return !mesh_.glides(wish.split) || wish.error_px <= frame.test.least_limit_px();
+}
+
+// What keeps the promise unsplit lets those that it needs arrive.
+bool Refinement::must_wait(const Frame& frame, const Wish& wish) {
+    if (glides_.empty() || wish.error_px > frame.test.least_limit_px()) return false;
+    mesh_.decode_needs(wish.split, needs_);
+    return std::any_of(needs_.begin(), needs_.end(), [&](uint32_t need) { return has(gliding_, need); });
 }
 
 bool Refinement::collapse_next(Frame& frame) {
@@ -159,6 +168,10 @@ bool Refinement::split_next(Frame& frame) {
         std::pop_heap(splits_.begin(), splits_.end());
         splits_.pop_back();
         if (!is_wanted) continue;
+        if (must_wait(frame, wish)) {
+            frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
+            continue;
+        }
         apply(frame, wish);
         return true;
     }

@@ -22,11 +22,20 @@ namespace overlook::caveclod {
 
 class ScreenTest;
 
-// A vertex on its way: at the share `share` (0..1) from vertex `from` to vertex `to`.
+// A vertex on its way to vertex `to`, as drawing reads it: at the share `share` (0..1) from a mixture of three vertices, in
+// normal, texture coordinates and colour; and in its place too where it glides (then the three are one). One that fades stands
+// at its place from the beginning.
 struct GlideVertex {
-    uint32_t to = 0, from = 0;
+    static constexpr uint32_t kGlides = uint32_t(1) << 31;
+    uint32_t to_bits = 0;  // `to`, and kGlides
     float share = 0;
+    std::array<uint16_t, 2> weights{};  // of from[0] and from[1], 65535ths; the rest is from[2]'s
+    std::array<uint32_t, 3> from{};
+
+    uint32_t to() const { return to_bits & ~kGlides; }
+    bool glides() const { return (to_bits & kGlides) != 0; }
 };
+static_assert(sizeof(GlideVertex) == 24);
 
 // One camera's refinement of one mesh, which must outlive it. Any number of them may refine one mesh at once, each in one thread.
 //
@@ -41,6 +50,10 @@ struct GlideVertex {
 // glide at kGlideEnter of the error that forces it, and jumps to its place as soon as that is reached. Stars that glide at the
 // same time share no face, since a split that touches another's faces needs it, and is not applied before the other has arrived;
 // so the cuts with every gliding star at its lower, and at its upper form are legal too, and bound the picture from both sides.
+//
+// All other splits fade: the new position is at its place at once, which is the finer cut itself, and looks at first as the
+// coarser surface did there (what its face's corners make of it by the barycentric coordinates of the nearest of the faces
+// moved), then more and more as itself. They need not begin early.
 class Refinement {
   public:
     explicit Refinement(const Mesh& mesh);
@@ -83,7 +96,7 @@ class Refinement {
     };
     struct Glide {
         float share = 0;
-        bool is_collapsing = false;
+        bool is_collapsing = false, moves = false;
         std::vector<uint32_t> slots;  // in glide_vertices_
     };
 
@@ -102,6 +115,8 @@ class Refinement {
     void undo(Frame& frame, uint32_t split);
 
     void start_glide(uint32_t split, bool is_collapsing, float share);
+    void find_sources(bool glides);
+    bool must_wait(const Frame& frame, const Wish& wish);
     void finish_glide(uint32_t split);
     void advance_glides(Frame& frame, double dt_s);
     uint32_t take_glide_slot(const GlideVertex& vertex);
@@ -117,6 +132,8 @@ class Refinement {
     SplitRecord record_, other_;
     std::vector<uint32_t> needs_;
     std::vector<Wish> splits_, collapses_, reserve_;
+    std::vector<GlideVertex> sources_;  // of the split that begins: one for each new vertex
+    std::vector<double> inside_;        // [as sources_] how far inside its face a vertex lies, least barycentric coordinate
 };
 
 // Refines each camera's own, several at once; the result is that of one after the other. All spans of one length.

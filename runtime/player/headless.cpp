@@ -30,12 +30,13 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     settle(plan, scene);
     uint32_t frame_count = std::max(1u, plan.options.frames);
     std::vector<FrameRecord> records;
-    view::ErrorController controller(budget_of(plan.options, plan.options.error_px));
+    view::ErrorController controller(budget_of(plan.options, *plan.method, plan.options.error_px));
     command::Progress progress(common, "drawing");
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
         view::Camera camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
-        Result<FrameRecord> record =
-            scene.draw(*target, camera, {*plan.method, controller.error_px(), plan.options.morph, false, plan.draw, plan.flight.step_s});
+        Result<FrameRecord> record = scene.draw(*target, camera,
+                                                {*plan.method, controller.error_px(), plan.options.morph, false, plan.draw,
+                                                 plan.flight.step_s, plan.options.triangles});
         if (!record) return tl::unexpected(record.error());
         records.push_back(*record);
         controller.frame_done(cost_of(plan.options, records.back()));

@@ -73,7 +73,9 @@ void watch(KeyWatch& keys, const FrameRecord& frame) {
     }
 }
 
-view::ErrorBudget budget_of(const Options& options, double least_error_px) {
+view::ErrorBudget budget_of(const Options& options, Method method, double least_error_px) {
+    if (options.triangles > 0 && (method == Method::caveclod || method == Method::caveclod_shared))
+        return {0, least_error_px, false};
     if (options.triangles > 0) return {double(options.triangles), least_error_px, false};
     return {options.frame_ms, least_error_px, true};
 }

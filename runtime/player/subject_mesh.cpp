@@ -46,7 +46,8 @@ class MeshSubject : public Subject {
                             (corner & 2) != 0 ? mesh_.highest_m().y : mesh_.lowest_m().y,
                             (corner & 4) != 0 ? mesh_.highest_m().z : mesh_.lowest_m().z);
             at_m -= middle_m_;
-            double side_m = std::max(std::abs(glm::dot(at_m, axes.right)) / tangent_x, std::abs(glm::dot(at_m, axes.up)) / tangent_y);
+            double side_m =
+                std::max(std::abs(glm::dot(at_m, axes.right)) / tangent_x, std::abs(glm::dot(at_m, axes.up)) / tangent_y);
             away_m = std::max(away_m, kOverviewMargin * side_m - glm::dot(at_m, axes.forward));
         }
         camera.position_m = middle_m_ - axes.forward * (away_m + kNearShare * radius_m_);
@@ -72,6 +73,7 @@ class MeshSubject : public Subject {
         }
         caveclod::FrameOptions options = with_error(layer_.mesh, style.error_px);
         options.variant = variant_of(style.method);
+        if (style.most_triangles > 0) options.settings.most_triangles = style.most_triangles;
         if (!frames_ || frames_->options().variant != options.variant)
             frames_ = std::make_unique<caveclod::FrameDrawer>(hierarchy_, mesh_, *drawing_, options);
         else

@@ -167,8 +167,8 @@ TEST(Glide, TakesItsTimeAndTurnsBackOnItsWay) {
     std::vector<float> shares = drawn_shares(refinement);
     ASSERT_EQ(shares.size(), 1u);
     EXPECT_NEAR(shares[0], 7 / 15.0, 1e-3);
-    FrameReport last;
-    for (int frame = 0; frame < 9; ++frame) last = refinement.refine(near, settings, kFrame_s);
+    FrameReport last;  // some have waited for those that they need: one after the other
+    for (int frame = 0; frame < 60; ++frame) last = refinement.refine(near, settings, kFrame_s);
     EXPECT_EQ(last.gliding_count, 0u);
     // Away again: the same ones glide back, and go.
     view::Camera away = camera_at(0, -120, 0, 0, 0);
@@ -177,6 +177,60 @@ TEST(Glide, TakesItsTimeAndTurnsBackOnItsWay) {
     for (int frame = 0; frame < 200; ++frame) last = refinement.refine(away, settings, kFrame_s);
     EXPECT_EQ(last.gliding_count, 0u);
     EXPECT_LT(refinement.faces().face_count(), coarse);
+}
+
+// What may not glide stands at its place at once, and looks as the coarser surface did there: over hills whose colour is a
+// height's, that is the height of the face that it came out of.
+TEST(Fade, BeginsAsTheCoarserSurfaceLooked) {
+    Hierarchy h = synthetic::bake(synthetic::hills(48, 48));
+    Result<Mesh> mesh = Mesh::make(h);
+    ASSERT_TRUE(mesh);
+    Refinement refinement(*mesh);
+    Settings settings = plain();
+    settings.glide_s = 0.25, settings.error_px = 3;
+    size_t fading = 0, gliding = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        refinement.refine(flown(0.02 * frame), settings, kFrame_s);
+        for (const GlideVertex& vertex : refinement.glide_vertices()) {
+            if (vertex.glides()) {
+                ++gliding;
+                EXPECT_EQ(vertex.from[0], vertex.from[1]);
+                EXPECT_EQ(vertex.from[0], vertex.from[2]);
+                continue;
+            }
+            ++fading;
+            double a = vertex.weights[0] / 65535.0, b = vertex.weights[1] / 65535.0;
+            glm::dvec3 at = a * mesh->vertex_m(vertex.from[0]) + b * mesh->vertex_m(vertex.from[1]) +
+                            (1 - a - b) * mesh->vertex_m(vertex.from[2]);
+            // The place that it takes its looks from is that over which it came to stand, as near as a projection along the
+            // face's own normal is.
+            glm::dvec3 to = mesh->vertex_m(vertex.to());
+            double away = glm::distance(at, to), face = std::max(glm::distance(mesh->vertex_m(vertex.from[0]), to), 1e-9);
+            EXPECT_LE(away, face + 1e-3);
+        }
+    }
+    EXPECT_GT(fading, 100u);
+    EXPECT_GT(gliding, 10u);
+}
+
+// It is the finer cut that is drawn, so nothing waits at less than what was asked.
+TEST(Fade, HidesNoError) {
+    Hierarchy h = synthetic::bake(synthetic::hills(48, 48));
+    Result<Mesh> mesh = Mesh::make(h);
+    ASSERT_TRUE(mesh);
+    Settings fades = plain(), pops = plain();
+    fades.glide_s = 0.25, pops.glide_s = 0;
+    Refinement fading(*mesh), popping(*mesh);
+    for (int frame = 0; frame < 40; ++frame) {
+        FrameReport report = fading.refine(flown(0.02 * frame), fades, kFrame_s);
+        popping.refine(flown(0.02 * frame), pops, kFrame_s);
+        EXPECT_LE(report.error_px, fades.error_px);
+        for (uint32_t split = 0; split < mesh->split_count(); ++split) {
+            if (popping.is_applied(split) && !mesh->glides(split)) {
+                ASSERT_TRUE(fading.is_applied(split)) << frame << " " << split;
+            }
+        }
+    }
 }
 
 // Indices of what glides stand for both its ends; all others for vertices of the mesh.
@@ -198,7 +252,8 @@ TEST(Glide, DrawsEveryIndexFromTheMeshOrFromItsList) {
                     if (index < mesh->vertex_count()) continue;
                     ASSERT_LT(index - mesh->vertex_count(), refinement.glide_vertices().size());
                     const GlideVertex& vertex = refinement.glide_vertices()[index - mesh->vertex_count()];
-                    ASSERT_LT(std::max(vertex.to, vertex.from), mesh->vertex_count());
+                    ASSERT_LT(std::max({vertex.to(), vertex.from[0], vertex.from[1], vertex.from[2]}), mesh->vertex_count());
+                    ASSERT_LE(vertex.weights[0] + vertex.weights[1], 65535);
                     ++seen;
                 }
     }

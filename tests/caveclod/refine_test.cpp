@@ -323,7 +323,8 @@ TEST(Refinements, OfManyCamerasAreEachAsIfAloneWithAnyThreadCount) {
                 all.insert(all.end(), page.indices.begin(), page.indices.begin() + 3 * refinement.faces().page_count(surface, p));
             }
         for (const GlideVertex& vertex : refinement.glide_vertices())
-            all.insert(all.end(), {vertex.to, vertex.from, uint32_t(1e6f * vertex.share)});
+            all.insert(all.end(), {vertex.to_bits, vertex.from[0], vertex.from[1], vertex.from[2], vertex.weights[0],
+                                   vertex.weights[1], uint32_t(1e6f * vertex.share)});
         return all;
     };
     Settings settings = plain();

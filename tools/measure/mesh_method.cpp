@@ -47,7 +47,7 @@ class Caveclod : public Method {
     }
 
     bool set_triangles(double triangles) override {
-        if (frames_.options().variant != caveclod::Variant::own) return false;
+        if (frames_.options().variant == caveclod::Variant::paper) return false;
         caveclod::Settings settings = frames_.options().settings;
         settings.most_triangles = uint64_t(triangles);
         frames_.change(settings);

@@ -47,13 +47,13 @@ struct Case {
     std::string number;  // "S01" .. "S20"
     std::string what;
     std::string scene, flight;  // paths; empty = not there yet
-    // Of methods that draw meshes, where those fly over something of their own; empty = as the others.
-    std::string mesh_scene{}, mesh_flight{};
     CaseSettings settings;
     std::vector<CaseGate> gates;
     std::vector<std::string> methods;  // of scene::kMethods
     std::vector<std::string> runs;     // of methods
     std::string note{};                // what is known of a gate that is missed; empty = nothing
+    // Of methods that draw meshes, where those fly over something of their own; empty = as the others.
+    std::string mesh_scene{}, mesh_flight{};
 };
 
 // The case as methods that draw meshes fly it.

@@ -72,13 +72,21 @@ Result<Ridge> fly_ridge(Stage& stage, const MethodSpec& spec, const std::vector<
     return ridge;
 }
 
-double fade_frames_of(const MethodSpec& spec) {
-    auto found =
-        std::find_if(spec.settings.begin(), spec.settings.end(), [](const auto& one) { return one.first == "fade-frames"; });
-    return found == spec.settings.end() ? 0 : found->second;
+// How long a transition takes: of keys, or of splits and collapses.
+uint32_t transition_frames_of(const MethodSpec& spec, double step_s) {
+    for (const auto& [name, value] : spec.settings) {
+        if (name == "fade-frames") return uint32_t(value);
+        if (name == "glide-s") return uint32_t(std::ceil(value / step_s - 1e-6));
+    }
+    return 0;
 }
 
-// Where on the flight a key first takes over from another.
+// Keys that took over; splits and collapses; levels that were exchanged.
+uint64_t changes_of(const Counters& counters) {
+    return counters.event_count + counters.operation_count;
+}
+
+// Where on the flight a key first takes over from another, or a mesh first changes.
 Result<std::optional<uint32_t>> first_takeover(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras) {
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
     if (!target) return tl::unexpected(target.error());
@@ -86,7 +94,7 @@ Result<std::optional<uint32_t>> first_takeover(Stage& stage, const MethodSpec& s
     bool has_key = false;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         method->decide(cameras[frame], frame);
-        if (method->draw(*target).event_count == 0) continue;
+        if (changes_of(method->draw(*target)) == 0) continue;
         if (has_key) return std::optional(frame);
         has_key = true;
     }
@@ -114,7 +122,7 @@ class Watched {
     // Draws the next frame; with is_judged it is held against the reference, and against the frame before if that was as well.
     Result<uint64_t> next(const view::Camera& camera, uint32_t frame, bool is_judged) {
         method_->decide(camera, frame);
-        uint64_t events = method_->draw(*target_).event_count;
+        uint64_t events = changes_of(method_->draw(*target_));
         picture = target_->read();
         if (!is_judged) return events;
         Frame now = seen(*method_, camera);
@@ -188,12 +196,13 @@ Result<Finding> turn_back(Stage& stage, const MethodSpec& spec, const scene::Fli
     constexpr uint32_t kBefore = 2;  // frames judged before the takeover
     Result<std::optional<uint32_t>> takeover = first_takeover(stage, spec, cameras);
     if (!takeover) return tl::unexpected(takeover.error());
-    if (!*takeover) return impossible("{}: no key takes over from another on this flight", label_of(spec));
-    uint32_t fade = uint32_t(fade_frames_of(spec)), event = **takeover;
+    if (!*takeover) return impossible("{}: nothing takes over from anything else on this flight", label_of(spec));
+    uint32_t fade = transition_frames_of(spec, flight.step_s), event = **takeover;
     Turn turn = turn_of(event, fade, uint32_t(cameras.size()));
     Result<Watched> watched = Watched::make(stage, spec);
     if (!watched) return tl::unexpected(watched.error());
-    uint32_t last_change = event, last_key = event, new_keys = 0, over = 0;
+    // A mesh goes on changing as long as the camera moves.
+    uint32_t last_change = event, last_key = stage.world.is_mesh() ? std::max(event, turn.stop) : event, new_keys = 0, over = 0;
     ImageRgb8 before;
     for (uint32_t step = 0; step < turn.frames.size(); ++step) {
         Result<uint64_t> events = watched->next(cameras[turn.frames[step]], step, step + kBefore >= event);
@@ -214,11 +223,12 @@ Result<Finding> turn_back(Stage& stage, const MethodSpec& spec, const scene::Fli
     finding.frames = uint32_t(turn.frames.size());
     finding.worst = std::move(watched->worst);
     finding.sentence = fmt::format(
-        "A key takes over in frame {}, over {} frames; the camera stops in frame {} and turns back in frame {}. The picture of "
+        "{} in frame {}, over {} frames; the camera stops in frame {} and turns back in frame {}. The picture of "
         "the "
-        "still camera changes last in frame {}. Keys that took over after it: {}. The greatest unrest above full geometry's is "
+        "still camera changes last in frame {}. Such frames after it: {}. The greatest unrest above full geometry's is "
         "{:.4f} luma, in frame {}, tile {}, {}.",
-        event, fade, turn.stop, turn.leaves + 1, last_change, new_keys, pop.excess, pop.frame, pop.tile_column, pop.tile_row);
+        stage.world.is_mesh() ? "The mesh changes" : "A key takes over", event, fade, turn.stop, turn.leaves + 1, last_change,
+        new_keys, pop.excess, pop.frame, pop.tile_column, pop.tile_row);
     return finding;
 }
 
