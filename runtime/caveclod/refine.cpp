@@ -99,7 +99,6 @@ void Refinement::undo(Frame& frame, uint32_t split) {
     for (uint32_t k = 0; k < record_.face_count; ++k) faces_.remove(record_.faces[k].face);
     put(applied_, split, false);
     for (uint32_t dependent : record_.dependents) close(dependent);
-    ++frame.report.collapse_count;
     for (uint32_t need : record_.needs) {
         mesh_.decode(need, other_);
         const std::vector<uint32_t>& others = other_.dependents;
@@ -130,6 +129,7 @@ bool Refinement::collapse_next(Frame& frame) {
         collapses_.pop_back();
         if (!has(applied_, wish.split) || !has(open_, wish.split) || has(gliding_, wish.split)) continue;
         frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
+        ++frame.report.collapse_count;
         bool is_over_budget = frame.settings.most_triangles > 0 && faces_.face_count() + 2 > frame.settings.most_triangles;
         if (!is_over_budget && may_glide(frame, wish))
             start_glide(wish.split, true, 1);
@@ -149,6 +149,7 @@ bool Refinement::make_room(Frame& frame, double error_px) {
         if (!has(applied_, wish.split) || !has(open_, wish.split)) continue;
         if (wish.error_px > error_px * frame.settings.collapse_share) return false;
         if (has(gliding_, wish.split)) finish_glide(wish.split);
+        ++frame.report.collapse_count;
         undo(frame, wish.split);
         frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
         return true;

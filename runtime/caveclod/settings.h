@@ -55,7 +55,7 @@ void set(FrameOptions& options, std::string_view name, double value);
 
 // What a camera's frame did.
 struct FrameReport {
-    uint32_t split_count = 0, collapse_count = 0;
+    uint32_t split_count = 0, collapse_count = 0;  // begun: those that glide are on their way for some time
     uint32_t forced_count = 0;     // of the splits: made only because another needed them
     uint32_t evaluated_count = 0;  // splits looked at
     uint32_t gliding_count = 0;    // on their way after this frame

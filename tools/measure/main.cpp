@@ -50,7 +50,6 @@ Result<void> measure_all(const Options& options, const std::vector<std::string>&
     if (!context) return tl::unexpected(context.error());
     gl::ErrorCounter errors;
     World world = std::move(*read);  // goes before the context
-    world.step_s = route->step_s;
     if (Result<void> uploaded = upload(world); !uploaded) return uploaded;
 
     Course course{std::move(*specs), route->cameras, route->step_s, compared_from(options)};

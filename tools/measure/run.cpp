@@ -31,6 +31,7 @@ class Field {
   public:
     static Result<Field> make(World& world, const Course& course) {
         Field field;
+        world.step_s = course.step_s;
         const view::Camera& camera = course.cameras.front();
         if (Result<void> added = field.add_target(camera, 1); !added) return tl::unexpected(added.error());
         for (const MethodSpec& spec : course.specs) {

@@ -44,6 +44,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 Result<std::vector<Finding>> findings_of(Stage& stage, const Case& each, CaseRunner run, std::span<const MethodSpec> specs) {
     Result<scene::Flight> flight = scene::read_flight(each.flight);
     if (!flight) return tl::unexpected(flight.error());
+    stage.world.step_s = flight->step_s;
     if (stage.kept_folder.empty()) return run(stage, each, *flight, specs);
     std::string path = stage.kept_folder + "/" + name_of_findings(stage, each, *flight, specs);
     if (std::optional<std::vector<Finding>> kept = read_findings(path, specs.size())) return std::move(*kept);
