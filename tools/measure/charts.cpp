@@ -40,7 +40,7 @@ set grid lc rgb "#dddddd" lt 1
 set key outside below left Left reverse samplen 2 noenhanced maxcols key_columns font ",12"
 set ylabel offset 1,0
 set xtics offset 0,0.3
-set xlabel offset 0,1.2
+set xlabel offset 0,0.95
 is_narrow = width < 600
 )";
 

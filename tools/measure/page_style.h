@@ -16,15 +16,15 @@ pre span { display: inline-block; max-width: 100%; }
 code { color: #59636c; }
 a { color: #005a92; }
 table { border-collapse: collapse; font-size: 0.93rem; }
-.facts th { text-align: left; font-weight: 600; padding: 3px 18px 3px 0; vertical-align: top; }
+.facts th { min-width: 7.5em; text-align: left; font-weight: 600; padding: 3px 18px 3px 0; vertical-align: top; }
 .facts td { padding: 3px 0; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; }
-.runs th, .runs td { padding: 5px 9px; border-bottom: 1px solid #e1e6ea; text-align: right; }
+.runs th, .runs td { padding: 5px 7px; border-bottom: 1px solid #e1e6ea; text-align: right; }
 .runs td { font-variant-numeric: tabular-nums; white-space: nowrap; }
 .runs thead th { vertical-align: bottom; border-bottom: 2px solid #8a949c; }
 .runs th:first-child { text-align: left; position: sticky; left: 0; background: #ffffff; font-weight: 600; }
 .runs thead th { font-weight: 600; }
-.runs td:last-child { text-align: left; white-space: normal; min-width: 9em; }
+.runs td:last-child { text-align: left; white-space: normal; min-width: 8em; }
 .matrix th, .matrix td, .matrix td:last-child { text-align: left; vertical-align: top; }
 .runs .floor td, .runs .floor th { background: #eceff1; }
 .software { background: #fff1c9; padding: 1px 7px; white-space: nowrap; font-weight: 600; }
