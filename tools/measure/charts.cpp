@@ -11,6 +11,8 @@ namespace {
 
 // Okabe and Ito's colours, which the colour-blind tell apart; the floor is always black.
 constexpr std::array<const char*, 7> kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F00"};
+// Of the curves whose colour another one has already.
+constexpr std::array<const char*, 3> kDashes = {"1", "(12,5)", "(4,4)"};
 constexpr std::array<int, 6> kPoints = {7, 5, 9, 13, 11, 15};
 
 std::string quoted(const std::string& text) {
@@ -37,7 +39,8 @@ set tics nomirror textcolor rgb "#222222"
 set grid lc rgb "#dddddd" lt 1
 set key outside below left Left reverse samplen 2 noenhanced maxcols key_columns font ",12"
 set ylabel offset 1,0
-set xlabel offset 0,0.8
+set xtics offset 0,0.3
+set xlabel offset 0,0.95
 is_narrow = width < 600
 )";
 
@@ -57,7 +60,8 @@ std::string style_of(const CourseResult& course, size_t run, double width) {
     if (is_floor(course.runs[run].spec)) return fmt::format("lc rgb \"#000000\" lw {} dt 2", width);
     size_t place = 0;
     for (size_t i = 0; i < run; ++i) place += is_floor(course.runs[i].spec) ? 0 : 1;
-    return fmt::format("lc rgb \"{}\" lw {}", kColours[place % kColours.size()], width);
+    const char* dashes = kDashes[std::min(place / kColours.size(), kDashes.size() - 1)];
+    return fmt::format("lc rgb \"{}\" lw {} dt {}", kColours[place % kColours.size()], width, dashes);
 }
 
 // runs.csv's columns: 1 run, 2 method, 3 is_floor, 4 e, 7 frame_ms_p50, 9 triangles_p50, 10 resident bytes.

@@ -9,8 +9,6 @@
 namespace overlook::measure {
 namespace {
 
-constexpr double kMostShownW = 0.25;  // luma; what the map of W shows as its brightest
-
 ImageRgb8 picture_of(const Frame& frame) {
     return {frame.width, frame.height, frame.rgb};
 }

@@ -8,6 +8,8 @@
 
 namespace overlook::measure {
 
+constexpr double kMostShownW = 0.02;  // luma; what the map of W shows as its brightest: a tile that pops, drawn well, has less
+
 // What a method promised of a frame, in pixels, for the rule of holes: what it predicted, and no more than it was asked for
 // unless a budget of triangles kept it from that. 0 for one that is not asked for pixels.
 double promised_px(const MethodSpec& spec, const Counters& counters);

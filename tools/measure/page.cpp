@@ -1,6 +1,7 @@
 #include "tools/measure/page.h"
 
 #include "tools/measure/figures.h"
+#include "tools/measure/judge.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/numbers/flip.h"
 #include "tools/measure/page_style.h"
@@ -8,15 +9,6 @@
 
 namespace overlook::measure {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string line;
-    for (const std::string& word : words) {
-        bool is_plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?") == std::string::npos;
-        line += (line.empty() ? "" : " ") + (is_plain ? word : "'" + word + "'");
-    }
-    return line;
-}
 
 std::string row(const std::string& name, const std::string& value) {
     return "<tr><th scope=\"row\">" + name + "</th><td>" + value + "</td></tr>\n";
@@ -33,7 +25,7 @@ std::string what_was_run(const PageInput& input) {
     const RunSetup& setup = input.setup;
     size_t frames = input.course.runs.front().frames.size();
     std::string software = setup.renderer.is_software ? " <strong class=\"software\">software OpenGL</strong>" : "";
-    std::string html = "<h2>What was run</h2>\n<pre>" + escaped(joined(setup.command)) + "</pre>\n<table class=\"facts\">\n";
+    std::string html = "<h2>What was run</h2>\n<pre>" + command_html(setup.command) + "</pre>\n<table class=\"facts\">\n";
     html += row("Renderer", escaped(setup.renderer.name) + software);
     html += row("Machine", escaped(setup.processor) + fmt::format(", {} threads", setup.processor_threads));
     html += row("Scene", escaped(setup.scene) + " <code>" + setup.scene_hash.substr(0, 12) + "</code>");
@@ -55,13 +47,6 @@ std::string what_was_run(const PageInput& input) {
             "<p class=\"note\">Drawn by the processor: the times say nothing about a graphics card. Judge by the counters.</p>\n";
     }
     return html;
-}
-
-// A run's name, which may break before each setting.
-std::string name_of(const RunResult& run) {
-    std::string name;
-    for (char c : escaped(run.label)) name += c == '@' ? std::string("<wbr>@") : std::string(1, c);
-    return "<span class=\"name\">" + name + "</span>";
 }
 
 // The table leads with what a viewer feels: 99th percentiles, steadiness, long frames.
@@ -108,7 +93,7 @@ std::string table_of_runs(const PageInput& input) {
     html += "<th>gates</th></tr></thead>\n<tbody>\n";
     for (const RunResult& run : input.course.runs) {
         html += fmt::format("<tr{}><th scope=\"row\">{}</th>{}<td>{}</td></tr>\n", is_floor(run.spec) ? " class=\"floor\"" : "",
-                            name_of(run), cells_of(run), gates_text(run));
+                            with_labels_html(run.label), cells_of(run), gates_text(run));
     }
     html +=
         "</tbody></table></div>\n<p class=\"note\">p99 and p50 are percentiles over the frames; E is itself the 99th percentile "
@@ -128,7 +113,7 @@ std::string charts_html(const PageInput& input) {
             "<figure>\n<h3>{1}</h3>\n<picture><source media=\"(max-width: 640px)\" srcset=\"charts/{0}-narrow.svg\"><img "
             "src=\"charts/{0}.svg\" alt=\"{1}\" width=\"900\" height=\"540\"></picture>\n<figcaption>{2} <a "
             "href=\"charts/{0}.png\">PNG</a></figcaption>\n</figure>\n",
-            chart.name, escaped(chart.title), escaped(chart_sentence(chart.name, input.course)));
+            chart.name, escaped(chart.title), with_labels_html(chart_sentence(chart.name, input.course)));
     }
     return html;
 }
@@ -141,10 +126,11 @@ std::string worst_html(const RunResult& run, const RunResult& floor, bool is_e) 
             "<figure><img loading=\"lazy\" src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\"><figcaption>{}</figcaption></figure>",
             picture_path(run, worst, is_e, what), caption, worst.test.width, worst.test.height, caption);
     };
+    std::string w_caption = fmt::format("W by tiles, black 0 to pale yellow {}", kMostShownW);
     return fmt::format("<p><strong>{}</strong> {}</p>\n<div class=\"three\">{}{}{}</div>\n",
                        is_e ? "Least accurate." : "Least steady.", escaped(worst_sentence(run, floor, is_e)),
                        image(Shown::test, "the method"), image(Shown::reference, "the reference"),
-                       image(Shown::error, is_e ? "E, black 0 to pale yellow 1" : "W by tiles, black 0 to pale yellow 0.25"));
+                       image(Shown::error, is_e ? "E, black 0 to pale yellow 1" : w_caption.c_str()));
 }
 
 std::string worst_frames(const PageInput& input) {
@@ -152,7 +138,7 @@ std::string worst_frames(const PageInput& input) {
     std::string html = "<h2>Worst frames</h2>\n";
     for (const RunResult& run : input.course.runs) {
         const RunResult& floor = input.course.runs[run.floor];
-        html += "<section>\n<h3>" + escaped(run.label) + "</h3>\n" + worst_html(run, floor, true) +
+        html += "<section>\n<h3>" + with_labels_html(run.label) + "</h3>\n" + worst_html(run, floor, true) +
                 worst_html(run, floor, false) + "</section>\n";
     }
     return html;
@@ -167,29 +153,6 @@ std::string file_name_of(std::string label) {
 }
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (char c : text) {
-        switch (c) {
-            case '&':
-                safe += "&amp;";
-                break;
-            case '<':
-                safe += "&lt;";
-                break;
-            case '>':
-                safe += "&gt;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += c;
-        }
-    }
-    return safe;
-}
 
 std::string picture_path(const RunResult& run, const WorstFrame& worst, bool is_e, Shown what) {
     if (what == Shown::reference) return fmt::format("images/reference-{:05}.png", worst.frame);

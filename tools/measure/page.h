@@ -25,7 +25,4 @@ std::string page_html(const PageInput& input);
 enum class Shown { test, reference, error };
 std::string picture_path(const RunResult& run, const WorstFrame& worst, bool is_e, Shown what);
 
-// "&lt;" and the like.
-std::string escaped(std::string_view text);
-
 }  // namespace overlook::measure

@@ -172,7 +172,62 @@ std::string worst_sentence(const RunResult& run, const RunResult& floor, bool is
                             short_number(floor_value));
     }
     if (part.share == 0) return text + "; nothing differs.";
-    return text + fmt::format("; most of it ({:.0f} %) lies in {} ninth of the picture.", 100 * part.share, part.name);
+    return text +
+           fmt::format("; the greatest part of it ({:.0f} %) lies in {} ninth of the picture.", 100 * part.share, part.name);
+}
+
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (char c : text) {
+        switch (c) {
+            case '&':
+                safe += "&amp;";
+                break;
+            case '<':
+                safe += "&lt;";
+                break;
+            case '>':
+                safe += "&gt;";
+                break;
+            case '"':
+                safe += "&quot;";
+                break;
+            default:
+                safe += c;
+        }
+    }
+    return safe;
+}
+
+std::string with_labels_html(std::string_view text) {
+    auto is_of_label = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view(":@=.-").find(c) != std::string_view::npos;
+    };
+    std::string html;
+    for (size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+        while (end < text.size() && is_of_label(text[end])) ++end;
+        std::string_view word = text.substr(begin, end - begin), rest;
+        if (word.ends_with('.')) rest = word.substr(word.size() - 1), word.remove_suffix(1);
+        if (word.find('@') == std::string_view::npos) {
+            if (end == begin) ++end;
+            html += escaped(text.substr(begin, end - begin));
+            continue;
+        }
+        html += "<span class=\"name\"><span>";
+        for (char c : word) html += c == '@' ? std::string("</span><wbr><span>@") : std::string(1, c);
+        html += "</span></span>" + std::string(rest);
+    }
+    return html;
+}
+
+std::string command_html(const std::vector<std::string>& words) {
+    std::string html;
+    for (const std::string& word : words) {
+        bool is_plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?") == std::string::npos;
+        html += (html.empty() ? "<span>" : " <span>") + escaped(is_plain ? word : "'" + word + "'") + "</span>";
+    }
+    return html;
 }
 
 }  // namespace overlook::measure

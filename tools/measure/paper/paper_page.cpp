@@ -91,10 +91,8 @@ std::string runs_html(const Flown& flown) {
         double triangles = 0;
         for (const FrameRecord& frame : run.frames)
             triangles += double(frame.counters.triangle_count) / double(run.frames.size());
-        std::string label = escaped(run.label);
-        for (size_t at = label.find('@'); at != std::string::npos; at = label.find('@', at + 6)) label.insert(at, "<wbr>");
         html += table_row(
-            {label, short_number(mean_ms(run)), short_number(times_ms.p50), short_number(times_ms.p99),
+            {with_labels_html(run.label), short_number(mean_ms(run)), short_number(times_ms.p50), short_number(times_ms.p99),
              short_number(times_ms.max), short_count(triangles), short_count(swept_from(run, nullptr, kThreshold_px).keyframes),
              short_number(percentiles_of(run, "e_p99_flip").p99), short_number(percentiles_of(run, "w_luma").p99),
              short_count(percentiles_of(run, "hole_px").max)},

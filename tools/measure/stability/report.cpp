@@ -60,7 +60,8 @@ std::string gates_html(const Verdict& verdict) {
 
 std::string matrix_html(const SuiteResult& result) {
     std::string html =
-        "<h2>Matrix</h2>\n<div class=\"wide\"><table class=\"runs\">\n<thead><tr><th>case</th><th>method</th><th>numbers and "
+        "<h2>Matrix</h2>\n<div class=\"wide\"><table class=\"runs matrix\">\n<thead><tr><th>case</th><th>method</th><th>numbers "
+        "and "
         "gates</th><th>frames</th><th>verdict</th></tr></thead>\n<tbody>\n";
     for (const Verdict& verdict : result.verdicts) {
         html += fmt::format(
@@ -96,9 +97,10 @@ std::string cases_html(const SuiteResult& result) {
             if (!verdict.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped(verdict.note));
         }
         number = verdict.number;
-        html += fmt::format("<section>\n<h3>{}: {}</h3>\n<p>{}<br>{}</p>\n{}</section>\n", escaped(label_of(verdict.spec)),
-                            verdict.is_kept() ? "pass" : "<span class=\"broken\">miss</span>", gates_html(verdict),
-                            escaped(verdict.finding.sentence), shot_html(verdict));
+        html +=
+            fmt::format("<section>\n<h3>{}: {}</h3>\n<p>{}<br>{}</p>\n{}</section>\n", with_labels_html(label_of(verdict.spec)),
+                        verdict.is_kept() ? "pass" : "<span class=\"broken\">miss</span>", gates_html(verdict),
+                        escaped(verdict.finding.sentence), shot_html(verdict));
     }
     return html;
 }
@@ -117,12 +119,6 @@ std::string owed_html(const SuiteResult& result) {
     return html + "</table>\n";
 }
 
-std::string command_of(const RunSetup& setup) {
-    std::string line;
-    for (const std::string& word : setup.command) line += (line.empty() ? "" : " ") + word;
-    return line;
-}
-
 std::string facts_html(const RunSetup& setup, const Stage& stage) {
     auto row = [](const char* name, const std::string& value) {
         return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
@@ -133,7 +129,7 @@ std::string facts_html(const RunSetup& setup, const Stage& stage) {
                                                  "from frame to frame counts (S01, S16), spread over all of it elsewhere; every "
                                                  "frame where only decisions are (S02, S19)",
                                                  stage.frames);
-    return "<pre>" + escaped(command_of(setup)) + "</pre>\n<table class=\"facts\">\n" +
+    return "<pre>" + command_html(setup.command) + "</pre>\n<table class=\"facts\">\n" +
            row("Renderer", escaped(setup.renderer.name) +
                                (setup.renderer.is_software ? " <strong class=\"software\">software OpenGL</strong>" : "")) +
            row("Scene", escaped(setup.scene) + " <code>" + setup.scene_hash.substr(0, 12) + "</code>") +
