@@ -7,6 +7,7 @@
 
 #include "runtime/lod_sprite/pose_track.h"
 #include "runtime/lod_sprite/reuse.h"
+#include "runtime/lod_sprite/shown.h"
 #include "runtime/lod_sprite/spending.h"
 #include "runtime/terrain/refine.h"
 
@@ -62,8 +63,10 @@ struct Novel {
     uint64_t near_triangle_count = 0;  // the cut's first so many lie nearer than near_depth_m all through
     std::vector<NovelUse> keys;
     double near_depth_m = 0;
+    double own_weight = 0;                        // of the surface's own colours, where the first key alone shows a pixel
     double low_error_px = 16, near_error_px = 1;  // what the cut keeps: of what is farther, and nearer
     std::optional<view::Camera> finer_outside;    // the cut keeps near_error_px outside what this one sees as well
+    view::PictureMask finer_in;                   // and in these parts of the picture
     bool is_fine = false;                         // the cut keeps error_px everywhere: no key is there to be used
     double error_p99_px = 0, error_max_px = 0;    // bounded, over the pixels
     double lost_share = 0;                        // predicted
@@ -93,6 +96,8 @@ class Director {
     uint64_t key_triangles() const { return slice_triangles_; }  // of this frame's key work
 
   private:
+    static constexpr double kMostLost = 0.3;  // of the frame: a key that has less to show is not looked into
+
     struct Slot {
         bool is_whole = false, is_fresh = false;  // fresh: no frame looked into it yet
         Key key;
@@ -109,12 +114,17 @@ class Director {
     };
 
     void judge_keys();
-    void take_over(uint32_t slot, const Reuse& reuse);
+    void take_over(uint32_t slot);
     void drop_wrong_key(bool has_jumped);
     bool is_key_begun();
     std::optional<KeyWork> slice_work();
     std::optional<KeyWork> thread_work();
-    Reuse reuse(uint32_t slot, const view::Camera& camera) const;
+    Reuse reuse(uint32_t slot, const view::Camera& camera, const Shown* shown = nullptr) const;
+    Shown shown(uint32_t slot) const { return shown_by(slots_[slot].key, camera_, settings_.most_magnified); }
+    void use(uint32_t slot);
+    bool is_filled() const;
+    bool has_before() const { return before_ && slots_[*before_].is_whole; }
+    view::PictureMask open_parts() const;
     double most_error_px() const;
     bool spends_all() const;
     uint32_t frames_to_make(uint32_t left);
@@ -143,12 +153,13 @@ class Director {
     uint32_t fade_left_ = 0;
     std::optional<Making> making_;
     Reuse current_reuse_;
+    Shown current_shown_;
     uint64_t expected_triangles_ = 0;  // of a key
     double life_frames_ = 16;          // of keys lately
     uint32_t age_frames_ = 0;          // of the one in use
     bool has_taken_over_ = false;
     uint64_t keys_made_ = 0, slice_triangles_ = 0;
-    bool was_last_ = false;
+    bool has_drawn_ = false;  // a frame since it forgot
     Cause took_over_ = Cause::none;
     terrain::Cut slice_, low_;
     std::vector<uint32_t> far_indices_;

@@ -29,6 +29,11 @@ glm::vec3 as_floats(const glm::dvec3& v) {
     return glm::vec3(v);
 }
 
+void clear_depth() {
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
 }  // namespace
 
 Result<gl::Framebuffer> framebuffer_of(const KeyPicture& picture) {
@@ -46,8 +51,7 @@ Result<gl::Framebuffer> framebuffer_of(const KeyPicture& picture) {
 
 void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface) {
     gl::bind_for_drawing(framebuffer.id(), picture.drawn_camera.width_px, picture.drawn_camera.height_px);
-    const GLfloat farthest = 0;
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    clear_depth();
     surface.draw_background(picture.drawn_camera);
 }
 
@@ -166,34 +170,70 @@ void Painter::set_uniforms(const gl::Program& program, const view::Camera& camer
     glUniform1f(program.at("low_error_px"), float(options.low_error_px));
     glUniform1f(program.at("near_error_px"), float(options.near_error_px));
     glUniform1f(program.at("near_depth_m"), float(options.near_depth_m));
+    glUniform1f(program.at("own_weight"), float(options.own_weight));
     glUniform1f(program.at("most_slack_m"), float(options.most_slack_m));
     glUniform1f(program.at("raise"), raises ? 1.0f : 0.0f);
     glUniform1f(program.at("tolerance_px"), float(options.tolerance_px));
+    glUniform1f(program.at("most_texel_px"), float(options.most_texel_px));
     glUniform1i(program.at("is_slab_tested"), options.tests_slab);
     glUniform1i(program.at("is_place_tested"), options.tests_places);
+}
+
+Result<void> Painter::draw_pass(Pass pass, gl::Surface* surface, const view::Camera& camera, const NovelOptions& options) {
+    bool raises = pass == Pass::keys && options.raises;
+    if (surface == nullptr || (pass == Pass::keys && options.keys.empty())) return {};
+    Result<const gl::Program*> program = program_of(*surface, options, pass);
+    if (!program) return tl::unexpected(program.error());
+    (*program)->use();
+    set_uniforms(**program, camera, options, raises);
+    // A ray that leaves the raised surface has been through it.
+    if (raises) glEnable(GL_CULL_FACE);
+    surface->draw(**program, camera);
+    glDisable(GL_CULL_FACE);
+    return {};
+}
+
+// The frame as it is without keys.
+Result<void> Painter::draw_own(gl::Surface* near, gl::Surface& far, const view::Camera& camera, const NovelOptions& options) {
+    NovelOptions own = options;
+    own.keys.clear();
+    if (Result<void> drawn = draw_pass(Pass::near, near, camera, own); !drawn) return drawn;
+    if (Result<void> drawn = draw_pass(Pass::rest, &far, camera, own); !drawn) return drawn;
+    far.draw_background(camera);
+    clear_depth();
+    return {};
+}
+
+// What keys show goes over what is there, each pixel once: its front is settled first.
+Result<void> Painter::blend_keys(gl::Surface& far, const view::Camera& camera, const NovelOptions& options) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    Result<void> drawn = draw_pass(Pass::keys, &far, camera, options);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (!drawn) return drawn;
+    glDepthFunc(GL_EQUAL);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    drawn = draw_pass(Pass::keys, &far, camera, options);
+    glDisable(GL_BLEND);
+    glDepthFunc(GL_GREATER);
+    return drawn;
 }
 
 Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
                            const NovelOptions& options) {
     assert(options.keys.size() <= kMostKeysAtOnce && options.look_ups >= 1);
     target.bind();
-    const GLfloat farthest = 0;
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    clear_depth();
     const GLfloat nothing[4] = {0, 0, 0, 1};
     if (options.is_mask) glClearBufferfv(GL_COLOR, 0, nothing);
-    for (Pass pass : {Pass::near, Pass::keys, Pass::rest}) {
-        gl::Surface* surface = pass == Pass::near ? near : &far;
-        bool raises = pass == Pass::keys && options.raises;
-        if (surface == nullptr || (pass == Pass::keys && options.keys.empty())) continue;
-        Result<const gl::Program*> program = program_of(*surface, options, pass);
-        if (!program) return tl::unexpected(program.error());
-        (*program)->use();
-        set_uniforms(**program, camera, options, raises);
-        // A ray that leaves the raised surface has been through it.
-        if (raises) glEnable(GL_CULL_FACE);
-        surface->draw(**program, camera);
-        glDisable(GL_CULL_FACE);
+    bool fades = options.own_weight > 0 && !options.keys.empty() && !options.is_mask;
+    if (fades) {
+        if (Result<void> drawn = draw_own(near, far, camera, options); !drawn) return drawn;
     }
+    if (Result<void> drawn = draw_pass(Pass::near, near, camera, options); !drawn) return drawn;
+    Result<void> shown = fades ? blend_keys(far, camera, options) : draw_pass(Pass::keys, &far, camera, options);
+    if (!shown) return shown;
+    if (Result<void> drawn = draw_pass(Pass::rest, &far, camera, options); !drawn) return drawn;
     if (!options.is_mask) far.draw_background(camera);
     target.resolve();
     return {};

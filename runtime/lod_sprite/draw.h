@@ -34,8 +34,11 @@ struct NovelOptions {
     double low_error_px = 16;  // the promise of the coarse cut
     double near_error_px = 1;  // of what is nearer than near_depth_m, which is drawn without sprites
     double near_depth_m = 0;
+    // Of the thing's own colours, 0..1, where the first key shows a pixel and no other does: a key fades in over them.
+    double own_weight = 0;
     double most_slack_m = 1e9;   // no surface is farther than that from its coarse form
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
+    double most_texel_px = 1.5;  // how wide a texel may have become
     uint32_t look_ups = 3;       // a pixel and key, at least 1
     bool raises = true;          // the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
@@ -93,6 +96,9 @@ class Painter {
         gl::Framebuffer framebuffer;
     };
     enum class Pass { near, keys, rest };
+    Result<void> draw_pass(Pass pass, gl::Surface* surface, const view::Camera& camera, const NovelOptions& options);
+    Result<void> draw_own(gl::Surface* near, gl::Surface& far, const view::Camera& camera, const NovelOptions& options);
+    Result<void> blend_keys(gl::Surface& far, const view::Camera& camera, const NovelOptions& options);
     Result<const gl::Program*> program_of(const gl::Surface& surface, const NovelOptions& options, Pass pass);
     void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options, bool raises) const;
 

@@ -107,6 +107,7 @@ void FrameDrawer::settle(const FrameOptions& options) {
     novel_ = options.draw;
     novel_.low_error_px = settings_.low_error_px;
     novel_.near_error_px = settings_.error_px;
+    novel_.most_texel_px = settings_.most_magnified;
     novel_.most_slack_m = refiner_.highest_m() - refiner_.lowest_m();
     forget();
 }
@@ -237,13 +238,14 @@ void FrameDrawer::plan() {
     novel_.keys.clear();
     for (const NovelUse& use : plan_->keys) novel_.keys.push_back({use.slot, use.weight});
     novel_.near_depth_m = plan_->near_depth_m;
+    novel_.own_weight = plan_->own_weight;
     novel_.low_error_px = plan_->low_error_px;
     novel_.near_error_px = plan_->near_error_px;
     counts_.triangle_count += plan_->cut->triangle_count();
     counts_.near_triangle_count = plan_->near_triangle_count;
     counts_.vertex_reference_count += plan_->cut->indices.size();
     counts_.tested_count += plan_->cut->tested_count;
-    counts_.draw_call_count += 2;
+    counts_.draw_call_count += plan_->own_weight > 0 ? 4 : 2;
     counts_.resident_bytes = painter_->resident_bytes();
     counts_.live_key_count = uint32_t(std::count(is_whole_.begin(), is_whole_.end(), true));
     counts_.used_key_count = uint32_t(plan_->keys.size());

@@ -48,7 +48,8 @@ uniform float key_weights[KEYS];
 layout(binding = 4) uniform sampler2D key_colours[KEYS];
 layout(binding = 8) uniform sampler2D key_depths[KEYS];  // near / depth
 uniform float raise;
-uniform float tolerance_px;  // beside the distance of a texel's middle from the place looked up
+uniform float tolerance_px;   // beside the distance of a texel's middle from the place looked up
+uniform float most_texel_px;  // a texel that has become wider shows nothing
 uniform bool is_slab_tested, is_place_tested;
 const float kFarthest = 1e-7;  // of near / depth: the sky
 
@@ -66,14 +67,18 @@ Found find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     vec2 scale = 0.5 / tangents;
     float t = low_m;
     vec2 uv = vec2(0.5);
-    bool is_before = true, was_free = false;
+    bool is_before = true, was_free = false, is_fine = false;
+    float widest_m = most_texel_px / (focal_px * 2.0 * max(tangents.x / size.x, tangents.y / size.y));  // for every metre of depth
     for (int i = 0; i < LOOK_UPS; ++i) {
         vec3 at = origin + along * t;
         is_before = at.z > near_in_key_m;
         vec2 tangent = at.xy / max(at.z, near_in_key_m);
         uv = 0.5 + scale * tangent;
         float depth_m = near_in_key_m / max(textureLod(key_depths[k], uv, 0.0).r, kFarthest);
-        if (i == 0) was_free = depth_m > at.z * 1.001;
+        if (i == 0) {
+            was_free = depth_m > at.z * 1.001;
+            is_fine = is_before && at.z <= widest_m * low_m;
+        }
         t = dot(forward, vec3(tangent * depth_m, depth_m) - origin);
     }
     vec2 corner = uv * size - 0.5, base = floor(corner), part = corner - base;
@@ -93,6 +98,7 @@ Found find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     bvec4 in_place = lessThanEqual(off_squared, allowed * allowed);
     vec4 weights = mix(vec4(1.0 - part.x), vec4(part.x), right) * mix(vec4(1.0 - part.y), vec4(part.y), up);
     if (is_place_tested) weights *= vec4(in_place) * vec4(greaterThan(own_t, vec4(0.0)));
+    weights *= vec4(lessThanEqual(depths_m, widest_m * own_t));
     float sum = weights.x + weights.y + weights.z + weights.w;
 
     ivec2 texel = ivec2(base);
@@ -103,8 +109,10 @@ Found find(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     float shown_m = dot(weights, own_t) / max(sum, 1e-6);
     // Beyond what the coarse surface allows only if the key saw the space before it empty.
     bool is_in_slab = abs(shown_m - low_m) <= 1.5 * slack_depth_m + 0.002 * low_m;
-    bool is_found = is_inside && sum > 0.05 && (is_in_slab || (was_free && shown_m > low_m) || !is_slab_tested);
     bool is_sky = shown_m > 0.5 / kFarthest * near_in_key_m;
+    // What the key saw through there, it saw through as finely as if it had shown something.
+    bool is_found = is_inside && sum > 0.05 && (is_in_slab || (was_free && shown_m > low_m) || !is_slab_tested) &&
+                    (is_fine || !is_sky);
     return Found(shown / max(sum, 1e-6), float(is_found), float(is_found && is_sky));
 }
 
@@ -125,6 +133,7 @@ void look(out vec3 ray_m, out float low_m, out float slack_depth_m) {
 
 // First what keys show, on the raised surface, so that it hides the surface itself; the sky is left as it is.
 inline constexpr char kNovelMain[] = R"(
+uniform float own_weight;  // of what is there already, where the first key alone shows something
 void main() {
     vec3 ray_m;
     float low_m, slack_depth_m;
@@ -144,7 +153,7 @@ void main() {
 #ifdef MASK_OWN
     colour = vec4(float(used) / 255.0, 0.0, 0.0, 1.0);
 #else
-    colour = vec4(sum.rgb / sum.a, 1.0);
+    colour = vec4(sum.rgb / sum.a, used == 1 ? 1.0 - own_weight : 1.0);
 #endif
 }
 )";

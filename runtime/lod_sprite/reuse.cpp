@@ -7,11 +7,13 @@
 #include <limits>
 #include <vector>
 
+#include "runtime/lod_sprite/projector.h"
+#include "runtime/lod_sprite/shown.h"
+
 namespace overlook::lod_sprite {
 namespace {
 
-constexpr double kSteepest = 1.35;  // depths of neighbours in the grid farther apart than that are a step
-constexpr int kRaysASide = 12;      // that are asked whether the key saw what is there
+constexpr int kRaysASide = 12;  // that are asked whether the key saw what is there
 constexpr size_t kErrorSteps = 256;
 constexpr double kRoundingShare = 1e-9;  // of the frame: less is not lost but rounded
 
@@ -20,37 +22,11 @@ struct Seen {
     double x = 0, y = 0, depth = -1;
 };
 
-class Projector {
-  public:
-    Projector(const Key& key, const view::Camera& camera) : camera_(camera), focal_px_(view::focal_px(camera)) {
-        Link back = link_of(camera, key.camera);  // from the key into the camera
-        Link own = link_of(key.camera, key.camera);
-        turn_ = back.key_from_world * glm::transpose(own.key_from_world);
-        eye_ = back.eye_m;
-        tangents_ = own.tangents;
-    }
-    // share: 0..1 over the key's picture, from the top left.
-    Seen operator()(double share_x, double share_y, double depth_m) const {
-        glm::dvec3 ray{(2 * share_x - 1) * tangents_.x, (1 - 2 * share_y) * tangents_.y, 1};
-        glm::dvec3 at = std::isfinite(depth_m) ? eye_ + turn_ * (ray * depth_m) : turn_ * ray;
-        if (at.z <= 1e-9) return {};
-        return {focal_px_ * at.x / at.z, focal_px_ * at.y / at.z, at.z};
-    }
-    // By how much a cell grows, besides by coming nearer, because it is seen farther from the axis: the secants' ratio (its area
-    // goes with the inverse square of the distance and the cube of the secant).
-    double stretch(double share_x, double share_y, const Seen& now) const {
-        auto secant = [](double x, double y) { return std::sqrt(1 + x * x + y * y); };
-        return secant(now.x / focal_px_, now.y / focal_px_) /
-               secant((2 * share_x - 1) * tangents_.x, (1 - 2 * share_y) * tangents_.y);
-    }
-
-  private:
-    const view::Camera& camera_;
-    double focal_px_;
-    glm::dmat3 turn_;
-    glm::dvec3 eye_;
-    glm::dvec2 tangents_;
-};
+Seen seen_at(const Projector& project, double share_x, double share_y, double depth_m) {
+    glm::dvec3 at = project(share_x, share_y, depth_m);
+    if (at.z <= 1e-9) return {};
+    return {project.focal_px() * at.x / at.z, project.focal_px() * at.y / at.z, at.z};
+}
 
 // Errors by the area that has them.
 class Histogram {
@@ -115,14 +91,14 @@ double outside_share_of(const Key& key, const view::Camera& camera) {
 
 }  // namespace
 
-Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px, double outside_error_px) {
+Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error_px, double lost_error_px, const Shown* shown) {
     const DepthGrid& grid = key.depths;
     Projector project(key, camera);
     std::vector<Seen> seen(grid.depth_m.size());
     for (uint32_t y = 0; y < grid.height; ++y)
         for (uint32_t x = 0; x < grid.width; ++x) {
             size_t at = size_t(y) * grid.width + x;
-            seen[at] = project((x + 0.5) / grid.width, (y + 0.5) / grid.height, grid.depth_m[at]);
+            seen[at] = seen_at(project, (x + 0.5) / grid.width, (y + 0.5) / grid.height, double(grid.depth_m[at]));
         }
 
     double frame_area = double(camera.width_px) * camera.height_px;
@@ -147,7 +123,7 @@ Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error
                 size_t front = size_t(nearest - depths);
                 const Seen& edge = front == 0 ? a : front == 1 ? b : front == 2 ? c : d;
                 double growth = double(*nearest) / edge.depth;
-                double stretch = project.stretch((x + 0.5) / grid.width, (y + 0.5) / grid.height, edge);
+                double stretch = project.stretch((x + 0.5) / grid.width, (y + 0.5) / grid.height, {edge.x, edge.y});
                 opened += std::clamp(area - growth * growth * stretch * cell_area, 0.0, 64 * cell_area);
                 continue;
             }
@@ -160,14 +136,17 @@ Reuse reuse_of(const Key& key, const view::Camera& camera, double fallback_error
         }
     reuse.opened_share = std::min(1.0, opened / frame_area);
     reuse.outside_share = outside_share_of(key, camera);
-    if (reuse.lost_share() > kRoundingShare) errors.add(fallback_error_px, reuse.lost_share() * frame_area);
-    if (reuse.opened_share > kRoundingShare) drawn_errors.add(fallback_error_px, reuse.opened_share * frame_area);
-    if (reuse.outside_share > kRoundingShare) drawn_errors.add(outside_error_px, reuse.outside_share * frame_area);
+    if (shown != nullptr) reuse.unproven_share = shown->behind_share + std::max(0.0, shown->nothing_share - reuse.outside_share);
+    if (reuse.lost_share() > kRoundingShare) {
+        errors.add(fallback_error_px, reuse.lost_share() * frame_area);
+        drawn_errors.add(lost_error_px, reuse.lost_share() * frame_area);
+    }
     reuse.magnification_p99 = magnifications.percentile(0.99);
     reuse.error_p99_px = errors.percentile(0.99);
     reuse.error_max_px = errors.greatest_px();
     reuse.drawn_p99_px = drawn_errors.percentile(0.99);
-    reuse.drawn_max_px = drawn_errors.greatest_px();
+    // A step may be torn by less than what is drawn finer for.
+    reuse.drawn_max_px = std::max(drawn_errors.greatest_px(), reuse.opened_share > kRoundingShare ? fallback_error_px : 0.0);
     return reuse;
 }
 

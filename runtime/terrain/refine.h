@@ -8,6 +8,7 @@
 
 #include "formats/terrain.h"
 #include "runtime/view/camera.h"
+#include "runtime/view/picture_mask.h"
 
 namespace overlook::terrain {
 
@@ -50,6 +51,8 @@ struct PixelDetail {
     double near_depth_m = 0, near_error_px = 1;
     // So does, if there is another camera, what that one does not see for certain: the frame's part outside its four sides.
     std::optional<view::Camera> seen_by{};
+    // And so does what may touch a marked part of the picture.
+    view::PictureMask finer_in{};
 };
 
 // How far vertices morph (Refiner::cut_by_pixels) unless someone asks otherwise.

@@ -52,7 +52,7 @@ class ScreenTest {
         if (!must_split) {
             Bound bound = bound_of(box, error_m_[code]);
             // A box holds those of what it splits into: none of them is near or unseen where it is not.
-            const Limits& limits = bound.depth_m < near_depth_m_ || !is_wholly_seen(box) ? near_ : far_;
+            const Limits& limits = is_near_enough(box, bound) ? near_ : far_;
             if (bound.is_within(limits.full_squared)) {
                 keep_greatest(predicted_squared, bound);
                 if (bound.is_within(limits.enter_squared)) return {Verdict::keep};
@@ -136,6 +136,22 @@ class ScreenTest {
             {corner_squared_ * depth_squared, depth_squared + side_x * side_x + side_y * side_y, far_x * far_x + far_y * far_y});
         return {focal_squared_ * error_m * error_m * lever_squared, depth_squared * depth_after * depth_after, depth};
     }
+    // Asked last what costs most, and only where it changes anything.
+    bool is_near_enough(const Box& box, const Bound& bound) const {
+        if (bound.depth_m < near_depth_m_ || !is_wholly_seen(box)) return true;
+        return has_finer_part_ && !bound.is_within(near_.enter_squared) && touches_finer_part(box);
+    }
+
+    // The box lies between these slopes to the camera's axis.
+    bool touches_finer_part(const Box& box) const {
+        double nearest = std::max(forward_.least(box), near_m_), farthest = std::max(forward_.greatest(box), near_m_);
+        auto least = [&](double side) { return side / (side > 0 ? farthest : nearest); };
+        auto greatest = [&](double side) { return side / (side > 0 ? nearest : farthest); };
+        return finer_in_.is_touched(
+            0.5 + share_per_tangent_x_ * least(right_.least(box)), 0.5 + share_per_tangent_x_ * greatest(right_.greatest(box)),
+            0.5 - share_per_tangent_y_ * greatest(up_.greatest(box)), 0.5 - share_per_tangent_y_ * least(up_.least(box)));
+    }
+
     static void keep_greatest(double& predicted_squared, const Bound& bound) {
         if (bound.numerator > predicted_squared * bound.denominator) predicted_squared = bound.numerator / bound.denominator;
     }
@@ -171,6 +187,9 @@ class ScreenTest {
     };
     Limits far_, near_;
     double near_depth_m_;
+    view::PictureMask finer_in_;
+    bool has_finer_part_;
+    double share_per_tangent_x_, share_per_tangent_y_;
     bool morphs_;
     double error_m_[256];
     bool finest_error_is_zero_;

@@ -340,6 +340,24 @@ TEST(Director, FadesFromKeyToKey) {
     EXPECT_GE(fading, 2 * 3);
 }
 
+// The first key takes over from geometry as fine as asked, which stays until it has.
+TEST(Director, FadesTheFirstKeyInOverFineGeometry) {
+    Settings settings;
+    settings.fade_frames = 4;
+    Flight flight(settings);
+    std::vector<double> weights;
+    for (const Frame& frame : flight.fly(start_pose(), {0, 0, 0}, 0, 40)) {
+        if (frame.novel.is_fine) continue;
+        weights.push_back(frame.novel.own_weight);
+        terrain::Cut fine;
+        ground().refiner.cut_by_pixels(frame.camera, settings.error_px, fine);
+        EXPECT_EQ(triangles_of(frame.indices) == triangles_of(fine.indices), frame.novel.own_weight > 0) << weights.size();
+    }
+    ASSERT_GE(weights.size(), 6u);
+    weights.resize(6);
+    EXPECT_EQ(weights, (std::vector<double>{1, 0.75, 0.5, 0.25, 0, 0}));
+}
+
 TEST(Director, PutsNearTrianglesFirst) {
     Settings settings;
     Flight flight(settings);
@@ -352,9 +370,10 @@ TEST(Director, PutsNearTrianglesFirst) {
         Frame frame = flight.step(low);
         if (frame.novel.is_fine) continue;
         terrain::Cut cut;
-        ground().refiner.cut_by_pixels(
-            frame.camera,
-            {settings.low_error_px, settings.morph, frame.novel.near_depth_m, settings.error_px, frame.novel.finer_outside}, cut);
+        ground().refiner.cut_by_pixels(frame.camera,
+                                       {settings.low_error_px, settings.morph, frame.novel.near_depth_m, settings.error_px,
+                                        frame.novel.finer_outside, frame.novel.finer_in},
+                                       cut);
         ASSERT_EQ(triangles_of(frame.indices), triangles_of(cut.indices));
         view::Axes axes = view::axes_of(frame.camera);
         for (size_t i = 0; i < frame.indices.size(); i += 3) {

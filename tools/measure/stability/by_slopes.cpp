@@ -5,16 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/measure/capture.h"
 #include "tools/measure/numbers/percentiles.h"
 #include "tools/measure/reuse_truth.h"
 #include "tools/measure/stability/stage.h"
+#include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
 namespace {
 
 constexpr double kWave_cells = 8;
 constexpr uint32_t kTexelsACell = 8, kMostTexels = 4096;
-constexpr double kMiddle = 0.5, kSwing = 0.45;  // of the waves, in encoded colour
+constexpr double kMiddle = 0.5, kSwing = 0.45;  // of the waves, in light: the renderer averages places so
 constexpr double kReadable = 0.7;               // of the swing: less is a mixture of places
 constexpr double kStep = 1.05;                  // depths of neighbours farther apart than that are an outline
 constexpr uint32_t kFewest = 48;                // frames, so that keys take over
@@ -22,8 +24,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 enum class Axis { columns, rows };
 
-uint8_t byte_of(double value) {
-    return uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+uint8_t byte_of(double light) {
+    return uint8_t(std::lround(255 * srgb_from_linear(std::clamp(light, 0.0, 1.0))));
 }
 
 // Red and green are cosine and sine of a wave along an axis of the raster, blue is the share of its length.
@@ -60,9 +62,10 @@ Result<World> painted(const World& world, Axis axis) {
 // Which place along the axis a colour is of, cells; nearest to `near` among those with its phase where that is not far off.
 // Nothing of a mixture.
 std::optional<double> place_of(const uint8_t* rgb, double near, double last) {
-    double red = rgb[0] / 255.0 - kMiddle, green = rgb[1] / 255.0 - kMiddle;
+    auto light = [&](int channel) { return linear_from_srgb(rgb[channel] / 255.0); };
+    double red = light(0) - kMiddle, green = light(1) - kMiddle;
     if (std::hypot(red, green) < kReadable * kSwing) return std::nullopt;
-    double about = rgb[2] / 255.0 * last;
+    double about = light(2) * last;
     // Blue knows the place within a cell or two, the phase within the wave.
     double from = std::abs(about - near) < kWave_cells / 4 ? near : about;
     double off = std::atan2(green, red) - kTurn * from / kWave_cells;
@@ -147,7 +150,13 @@ Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flig
     if (!target) return tl::unexpected(target.error());
     std::unique_ptr<Method> columns = stage.make(spec, *by_columns), rows = stage.make(spec, *by_rows);
     ReuseTruth truth(stage.world);
-    Shear shear(*stage.world.terrain);
+    Shear shear(*stage.world.terrain),
+        reading(*stage.world.terrain);  // the second of full geometry: what the measure itself is off by
+    terrain::Cut whole = full_cut(stage.world);
+    auto drawn_whole = [&](World& world, const view::Camera& camera) {
+        world.drawing->draw(*target, whole, camera, world.look);
+        return target->read();
+    };
     Finding finding;
     double worst_px = -1;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
@@ -161,6 +170,7 @@ Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flig
         if (!full) return tl::unexpected(full.error());
         size_t before = shear.errors_px.size();
         shear.add(*full, *along, *across, sources->of_pixel);
+        reading.add(*full, drawn_whole(*by_columns, cameras[frame]), drawn_whole(*by_rows, cameras[frame]), sources->of_pixel);
         for (size_t i = before; i < shear.errors_px.size(); ++i) {
             if (shear.errors_px[i] <= worst_px) continue;
             worst_px = shear.errors_px[i];
@@ -168,15 +178,17 @@ Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flig
         }
         ++finding.frames;
     }
-    if (shear.errors_px.empty()) return impossible("{}: no pixel of this flight shows a picture again", label_of(spec));
+    if (shear.errors_px.empty() || reading.errors_px.empty())
+        return impossible("{}: no pixel of this flight shows a picture again", label_of(spec));
     std::array<double, 3> shares = {0.5, 0.99, 0.999}, found{};
     for (size_t i = 0; i < shares.size(); ++i) found[i] = percentile(shear.errors_px, shares[i]);
     finding.figures["shear_error_px"] = worst_px;
     finding.sentence = fmt::format(
         "Of {} pixels that keys show, outlines apart, half are within {:.3f} px of where the ground that they show belongs, 99 % "
         "within {:.3f} px, 99.9 % within {:.3f} px, all within {:.3f} px; {} more show a mixture of places and could not be "
-        "read.",
-        shear.errors_px.size(), found[0], found[1], found[2], worst_px, shear.mixed_px);
+        "read. Full geometry, read in the same way, seems to be up to {:.3f} px off.",
+        shear.errors_px.size(), found[0], found[1], found[2], worst_px, shear.mixed_px,
+        *std::max_element(reading.errors_px.begin(), reading.errors_px.end()));
     return finding;
 }
 

@@ -1,0 +1,118 @@
+#include "runtime/lod_sprite/director.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::lod_sprite {
+namespace {
+
+constexpr double kLeastShown = 0.02;  // of the frame, nor one that has so little
+constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
+constexpr double kFillWeight = 1.0 / 1024;
+
+}  // namespace
+
+// Of the coarse cut's triangles those all of whose corners are near come first.
+void Director::put_near_first() {
+    novel_.near_triangle_count = 0;
+    if (novel_.near_depth_m <= 0) return;
+    view::Axes axes = view::axes_of(camera_);
+    far_indices_.clear();
+    size_t kept = 0;
+    for (size_t i = 0; i < low_.indices.size(); i += 3) {
+        double farthest_m = 0;
+        for (size_t j = i; j < i + 3; ++j) {
+            glm::dvec3 away_m = refiner_.vertex_m(low_, low_.indices[j]) - camera_.position_m;
+            farthest_m = std::max(farthest_m, glm::dot(away_m, axes.forward));
+        }
+        if (farthest_m < novel_.near_depth_m) {
+            std::copy_n(&low_.indices[i], 3, &low_.indices[kept]);
+            kept += 3;
+        } else {
+            far_indices_.insert(far_indices_.end(), &low_.indices[i], &low_.indices[i] + 3);
+        }
+    }
+    std::copy(far_indices_.begin(), far_indices_.end(), low_.indices.begin() + ptrdiff_t(kept));
+    novel_.near_triangle_count = kept / 3;
+}
+
+// Is the key before the one in use looked into as well?
+bool Director::is_filled() const {
+    return has_before() && (fade_left_ > 0 || current_reuse_.lost_share() > kFillWorth);
+}
+
+// Of the picture, where the surface's own colours are seen: where no key that is looked into shows what is there, or where a key
+// fades in over none.
+view::PictureMask Director::open_parts() const {
+    std::vector<uint8_t> is_open = current_shown_.is_open;
+    if (is_filled()) {
+        Shown other = shown(*before_);
+        for (size_t i = 0; i < is_open.size(); ++i) is_open[i] = (is_open[i] || fade_left_ > 0) && other.is_open[i];
+    }
+    return {current_shown_.columns, current_shown_.rows, is_open};
+}
+
+bool Director::shows_key() const {
+    return current_ && current_reuse_.lost_share() <= kMostLost && current_shown_.surface_share >= kLeastShown;
+}
+
+// As things are now; made again, coarser, where a budget does not allow so many triangles.
+void Director::cut_coarse() {
+    constexpr int kMostTries = 4;
+    bool has_key = shows_key(), fits = false;
+    bool is_coarse = has_key && (fade_left_ == 0 || has_before());  // else a key fades in over what there is without it
+    novel_.near_depth_m = 0;
+    novel_.finer_outside.reset();
+    novel_.finer_in = {};
+    if (has_key) {
+        novel_.finer_outside = slots_[fade_left_ > 0 && has_before() ? *before_ : *current_].key.camera;
+        novel_.finer_in = open_parts();
+    }
+    if (has_key && settings_.draws_near) {
+        double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
+        novel_.near_depth_m = track_.speed_m() * life_frames_ / (most_growth - 1);
+    }
+    for (int tries = 0; tries < kMostTries && !fits; ++tries) {
+        double coarser = spending_.coarser(is_coarse);
+        novel_.near_error_px = settings_.error_px * coarser;
+        novel_.low_error_px = is_coarse ? settings_.low_error_px * coarser : novel_.near_error_px;
+        refiner_.cut_by_pixels(camera_,
+                               {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px,
+                                novel_.finer_outside, novel_.finer_in},
+                               low_);
+        fits = spending_.coarse_done(is_coarse, low_.triangle_count());
+    }
+}
+
+const Novel& Director::novel() {
+    is_begun_ = false;
+    ++age_frames_;
+    novel_.keys.clear();
+    novel_.own_weight = 0;
+    has_drawn_ = true;
+    novel_.rekeyed = took_over_;
+    // Within a budget the cut is there, unless another key has taken over since.
+    if (!is_cut_) cut_coarse();
+    is_cut_ = false;
+    put_near_first();
+    bool has_key = shows_key();
+    novel_.error_p99_px = has_key ? current_reuse_.drawn_p99_px : novel_.near_error_px;
+    novel_.error_max_px = has_key ? current_reuse_.drawn_max_px : novel_.near_error_px;
+    if (novel_.near_error_px > settings_.error_px && novel_.near_triangle_count > 0) {
+        novel_.error_p99_px = std::max(novel_.error_p99_px, novel_.near_error_px);
+        novel_.error_max_px = std::max(novel_.error_max_px, novel_.near_error_px);
+    }
+    novel_.lost_share = has_key ? current_reuse_.lost_share() : 1;
+    novel_.is_fine = !has_key;
+    if (has_key) {
+        double fade = settings_.fade_frames > 0 ? double(fade_left_) / settings_.fade_frames : 0;
+        novel_.keys.push_back({*current_, std::max(1 - fade, kFillWeight)});
+        if (is_filled()) novel_.keys.push_back({*before_, std::max(fade, kFillWeight)});
+        novel_.own_weight = fade;
+        if (fade_left_ > 0) --fade_left_;
+    }
+    novel_.cut = &low_;
+    return novel_;
+}
+
+}  // namespace overlook::lod_sprite
