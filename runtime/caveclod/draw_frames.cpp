@@ -6,7 +6,7 @@
 namespace overlook::caveclod {
 namespace {
 
-constexpr uint32_t kMostTraversals = 256;  // to the first frame of the paper's
+constexpr uint32_t kMostTraversals = 256;  // to the first frame
 
 }  // namespace
 
@@ -68,12 +68,19 @@ void FrameDrawer::decide_own(double dt_s) {
     std::vector<Refinement*> all;
     for (const auto& refinement : refinements_) all.push_back(refinement.get());
     if (is_first_) {
-        // All the way, and whatever could glide has arrived.
+        // All the way: whatever glides has arrived, and what waited for it as well.
         Settings at_once = options_.settings;
         at_once.most_operations = 0;
-        refine_all(all, cameras_, at_once, 0, reports_);
-        for (size_t i = 0; i < all.size(); ++i) take(reports_[i], false);
         dt_s = options_.settings.glide_s;
+        bool is_gliding = true;
+        for (uint32_t round = 0; is_gliding && round < kMostTraversals; ++round) {
+            refine_all(all, cameras_, at_once, dt_s, reports_);
+            is_gliding = false;
+            for (const FrameReport& report : reports_) {
+                is_gliding = is_gliding || report.gliding_count > 0;
+                take(report, false);
+            }
+        }
     }
     is_first_ = false;
     refine_all(all, cameras_, options_.settings, dt_s, reports_);
