@@ -226,7 +226,7 @@ Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surf
     clear_depth();
     const GLfloat nothing[4] = {0, 0, 0, 1};
     if (options.is_mask) glClearBufferfv(GL_COLOR, 0, nothing);
-    bool fades = options.own_weight > 0 && !options.keys.empty() && !options.is_mask;
+    bool fades = options.own_weight > 0 && !options.keys.empty() && !options.is_mask && !options.shows_sources;
     if (fades) {
         if (Result<void> drawn = draw_own(near, far, camera, options); !drawn) return drawn;
     }

@@ -34,7 +34,8 @@ struct NovelOptions {
     double low_error_px = 16;  // the promise of the coarse cut
     double near_error_px = 1;  // of what is nearer than near_depth_m, which is drawn without sprites
     double near_depth_m = 0;
-    // Of the thing's own colours, 0..1, where the first key shows a pixel and no other does: a key fades in over them.
+    // Of the thing's own colours, 0..1, where the first key shows a pixel and no other does: a key fades in over them,
+    // but in a mask and where sources are shown.
     double own_weight = 0;
     double most_slack_m = 1e9;   // no surface is farther than that from its coarse form
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown

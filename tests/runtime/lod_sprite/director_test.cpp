@@ -344,9 +344,10 @@ TEST(Director, FadesFromKeyToKey) {
 TEST(Director, FadesTheFirstKeyInOverFineGeometry) {
     Settings settings;
     settings.fade_frames = 4;
+    settings.mode = KeyMode::thread;  // whose key takes over in a later frame
     Flight flight(settings);
     std::vector<double> weights;
-    for (const Frame& frame : flight.fly(start_pose(), {0, 0, 0}, 0, 40)) {
+    for (const Frame& frame : flight.fly(start_pose(), {0, 0, 0}, 0, 16)) {
         if (frame.novel.is_fine) continue;
         weights.push_back(frame.novel.own_weight);
         terrain::Cut fine;
