@@ -2,28 +2,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/gl/fixture.h"
-#include "tests/tools/caveclod/test_meshes.h"
-#include "tools/bake/caveclod/bake.h"
-#include "tools/measure/methods.h"
-#include "tools/measure/run.h"
+#include "tests/gl/measure_torus.h"
 
 namespace overlook::measure {
 namespace {
 
 // Round a torus of 16,384 triangles, a part of a degree a frame.
 struct Torus {
-    World world;
+    World world = torus_world();
     Course course;
 
     explicit Torus(const std::vector<std::string>& methods) {
-        caveclod::BakeReport report;
-        auto hierarchy = caveclod::bake(caveclod::test::torus(128, 64, 10, 4), {}, report, [](double) {});
-        EXPECT_TRUE(hierarchy);
-        world.name = "torus", world.content_hash = "the same torus";
-        MeshWorld& made = world.mesh.emplace();
-        made.hierarchy = std::make_unique<caveclod::Hierarchy>(std::move(*hierarchy));
-        made.mesh = std::make_unique<caveclod::Mesh>(*caveclod::Mesh::make(*made.hierarchy));
-        EXPECT_TRUE(upload(world));
         course.specs = *specs_from(methods, {});
         EXPECT_TRUE(check_draws(course.specs, world));
         add_floors(course.specs);
