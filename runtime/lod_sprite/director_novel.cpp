@@ -10,6 +10,25 @@ constexpr double kLeastShown = 0.02;  // of the frame, nor one that has so littl
 constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
 constexpr double kFillWeight = 1.0 / 1024;
 
+// Does a key's camera see all that another does from a depth on? Four rays at that depth, and where they go, decide: what lies
+// between is between them.
+bool sees_all(const view::Camera& key, const view::Camera& camera, double from_m) {
+    Link link = link_of(key, camera);
+    view::Axes axes = view::axes_of(camera);
+    double focal_px = view::focal_px(camera), x = camera.width_px / (2 * focal_px), y = camera.height_px / (2 * focal_px);
+    auto is_inside = [&](const glm::dvec3& at) {
+        constexpr double kRounding = 1 + 1e-9;
+        return at.z > 0 && std::abs(at.x) <= kRounding * link.tangents.x * at.z &&
+               std::abs(at.y) <= kRounding * link.tangents.y * at.z;
+    };
+    for (double right : {-x, x})
+        for (double up : {-y, y}) {
+            glm::dvec3 ray = link.key_from_world * (axes.forward + right * axes.right + up * axes.up);
+            if (!is_inside(ray) || !is_inside(link.eye_m + from_m * ray)) return false;
+        }
+    return true;
+}
+
 }  // namespace
 
 // Of the coarse cut's triangles those all of whose corners are near come first.
@@ -64,13 +83,14 @@ void Director::cut_coarse() {
     novel_.near_depth_m = 0;
     novel_.finer_outside.reset();
     novel_.finer_in = {};
-    if (has_key) {
-        novel_.finer_outside = slots_[fade_left_ > 0 && has_before() ? *before_ : *current_].key.camera;
-        novel_.finer_in = open_parts();
-    }
     if (has_key && settings_.draws_near) {
         double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
         novel_.near_depth_m = track_.speed_m() * life_frames_ / (most_growth - 1);
+    }
+    if (has_key) {
+        const view::Camera& asked = slots_[fade_left_ > 0 && has_before() ? *before_ : *current_].key.camera;
+        if (!sees_all(asked, camera_, std::max(novel_.near_depth_m, camera_.near_m))) novel_.finer_outside = asked;
+        novel_.finer_in = open_parts();
     }
     for (int tries = 0; tries < kMostTries && !fits; ++tries) {
         double coarser = spending_.coarser(is_coarse);
