@@ -272,17 +272,19 @@ void Passes::apply() {
     });
 }
 
-// Round the position that went, costs change; round the one that stayed, only what is allowed does.
+// Costs change here, and what is allowed. The old cost serves as a guess until the pass comes to it and looks closely; only where
+// nothing was allowed is a new one needed.
+void Passes::forget(uint32_t position) {
+    uint8_t least = candidates_[position].kept == kNone ? kNothing : kGuess;
+    std::atomic_ref known(known_[position]);
+    if (known.load(std::memory_order_relaxed) > least) known.store(least, std::memory_order_relaxed);
+}
+
 void Passes::mark_around(const Fan& fan) {
     Star star;
-    for (uint32_t i = 0; i <= fan.count; ++i) std::atomic_ref(known_[fan.link[i]]).store(kNothing, std::memory_order_relaxed);
+    for (uint32_t i = 0; i <= fan.count; ++i) forget(fan.link[i]);
     if (!gather_star(mesh_, fan.kept, star)) return;
-    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) {
-        uint8_t least = candidates_[star.link[i]].kept == kNone ? kNothing : kGuess;
-        std::atomic_ref known(known_[star.link[i]]);
-        for (uint8_t now = known.load(std::memory_order_relaxed); now > least;)
-            if (known.compare_exchange_weak(now, least, std::memory_order_relaxed)) break;
-    }
+    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) forget(star.link[i]);
 }
 
 }  // namespace overlook::caveclod

@@ -49,6 +49,7 @@ class Passes {
     void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const;
     void provide_crossings();
     void apply();
+    void forget(uint32_t position);
     void mark_around(const Fan& fan);
 
     WorkingMesh& mesh_;
