@@ -155,7 +155,8 @@ struct Quantised {
     double position_m = 0, normal_deg = 0, uv = 0;
 };
 // Moves positions and attributes to those that can be stored; origin_m goes to the lowest corner of the box round the positions,
-// whose step has so few bits that every position is exact in a float. Positions may coincide afterwards.
+// whose step has so few bits that every position is exact in a float. Positions may coincide afterwards; those that have a grid
+// already (grid.position_step_m > 0) stay.
 Quantised quantise(Hierarchy& hierarchy, const Precision& precision);
 // Rounds errors up to those that can be stored (eighths of an octave: at most 9.1 % more) and, from fine to coarse, to what needs
 // them. Needs must be complete.

@@ -109,7 +109,7 @@ void canonicalise(Hierarchy& hierarchy) {
 
 Quantised quantise(Hierarchy& hierarchy, const Precision& precision) {
     Quantised changed;
-    changed.position_m = quantise_positions(hierarchy, precision.position_bits);
+    if (!(hierarchy.grid.position_step_m > 0)) changed.position_m = quantise_positions(hierarchy, precision.position_bits);
     Grid& grid = hierarchy.grid;
     grid.normal_bits = precision.normal_bits;
     fit_uv_grid(hierarchy, precision.uv_bits);

@@ -26,6 +26,13 @@ std::string square_glb(const std::string& node = "") {
         fmt::format(R"("attributes":{{"POSITION":{},"NORMAL":{}}},"indices":{})", positions, normals, indices), node));
 }
 
+// With the axes of the file.
+MeshFile open_as_it_stands(const std::string& path) {
+    Options options;
+    options.up = Up::z;
+    return open_whole(path, options);
+}
+
 glm::dvec3 normal_of(const Mesh& mesh, size_t face) {
     const glm::dvec3 a(corner_m(mesh, face, 0)), b(corner_m(mesh, face, 1)), c(corner_m(mesh, face, 2));
     return glm::normalize(glm::cross(b - a, c - a));
@@ -33,20 +40,37 @@ glm::dvec3 normal_of(const Mesh& mesh, size_t face) {
 
 TEST(GltfMesh, NodesPlaceMirrorAndTurnWithNormals) {
     const ScratchFolder folder;
-    const MeshFile plain = open_whole(write_file(folder, "a.glb", square_glb()));
+    const MeshFile plain = open_as_it_stands(write_file(folder, "a.glb", square_glb()));
     EXPECT_EQ(plain.report.face_count, 2u);
     EXPECT_EQ(normal_of(plain.mesh, 0), glm::dvec3(0, 0, 1));
 
-    const MeshFile mirrored = open_whole(write_file(folder, "b.glb", square_glb(R"(,"scale":[-2,1,1],"translation":[0,0,5])")));
+    const MeshFile mirrored = open_as_it_stands(write_file(folder, "b.glb", square_glb(R"(,"scale":[-2,1,1],"translation":[0,0,5])")));
     EXPECT_EQ(area_of(mirrored.mesh), 2);
     EXPECT_EQ(normal_of(mirrored.mesh, 0), glm::dvec3(0, 0, 1));  // still seen from the front
     EXPECT_EQ(mirrored.mesh.normals[0], glm::vec3(0, 0, 1));
     EXPECT_EQ(corner_m(mirrored.mesh, 0, 0).z, 5);
 
     const MeshFile turned =
-        open_whole(write_file(folder, "c.glb", square_glb(R"(,"matrix":[1,0,0,0, 0,0,1,0, 0,-1,0,0, 0,0,0,1])")));
+        open_as_it_stands(write_file(folder, "c.glb", square_glb(R"(,"matrix":[1,0,0,0, 0,0,1,0, 0,-1,0,0, 0,0,0,1])")));
     EXPECT_EQ(normal_of(turned.mesh, 0), glm::dvec3(0, -1, 0));
     EXPECT_EQ(turned.mesh.normals[0], glm::vec3(0, -1, 0));
+}
+
+TEST(GltfMesh, StandsWithYUpUnlessToldOtherwise) {
+    const ScratchFolder folder;
+    const std::string path = write_file(folder, "a.glb", square_glb(R"(,"translation":[0,0,5])"));
+    const MeshFile lies = open_as_it_stands(path);
+    Options options;
+    for (Up up : {Up::automatic, Up::y}) {
+        options.up = up;
+        const MeshFile stands = open_whole(path, options);
+        EXPECT_EQ(normal_of(stands.mesh, 0), glm::dvec3(0, -1, 0));
+        EXPECT_EQ(stands.mesh.normals[0], glm::vec3(0, -1, 0));
+        for (size_t c = 0; c < 3; ++c) {
+            const auto file = corner_m(lies.mesh, 0, c);
+            EXPECT_EQ(corner_m(stands.mesh, 0, c), decltype(file)(file.x, -file.z, file.y));
+        }
+    }
 }
 
 TEST(GltfMesh, ChildrenAreInTheirParentsFrameAndLoopsAreRefused) {
@@ -54,7 +78,7 @@ TEST(GltfMesh, ChildrenAreInTheirParentsFrameAndLoopsAreRefused) {
     GltfMaker maker;
     const int positions = maker.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
     const std::string meshes = fmt::format(R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":{}}}}}]}}],)", positions);
-    const MeshFile mesh = open_whole(write_file(
+    const MeshFile mesh = open_as_it_stands(write_file(
         folder, "a.glb",
         maker.glb(meshes +
                   R"("nodes":[{"children":[1],"scale":[2,2,2]},{"mesh":0,"translation":[1,0,0]}],"scenes":[{"nodes":[0]}])")));
@@ -79,7 +103,7 @@ TEST(GltfMesh, StripsAndFansAreWoundAlikeAndListsNeedNoIndices) {
                  {fmt::format(R"(,"mode":5,"indices":{})", glued), 2, 2},
                  {R"(,"mode":4)", 1, 0}};
     for (const auto& c : cases) {
-        const MeshFile mesh = open_whole(write_file(
+        const MeshFile mesh = open_as_it_stands(write_file(
             folder, "a.glb", maker.glb(one_primitive(fmt::format(R"("attributes":{{"POSITION":{}}}{})", positions, c.extra)))));
         EXPECT_EQ(mesh.report.triangle_count, c.faces) << c.extra;
         EXPECT_EQ(mesh.report.strip_glue_count, c.glue) << c.extra;
@@ -103,7 +127,7 @@ TEST(GltfMesh, SparseAndQuantizedAccessorsGiveTheirValues) {
             R"(,"normalized":true,"sparse":{{"count":1,"indices":{{"bufferView":{},"componentType":5123}},"values":{{"bufferView":{}}}}})",
             where, what));
     const MeshFile mesh =
-        open_whole(write_file(folder, "a.glb",
+        open_as_it_stands(write_file(folder, "a.glb",
                               maker.glb(R"("extensionsRequired":["KHR_mesh_quantization"],)" +
                                         one_primitive(fmt::format(R"("attributes":{{"POSITION":{}}})", positions)))));
     ASSERT_EQ(mesh.mesh.faces.size(), 1u);
@@ -123,7 +147,7 @@ TEST(GltfMesh, TextureSetTransformImageAndMaterialAreKept) {
         R"({{"baseColorFactor":[1,0.5,0,1],"baseColorTexture":{{"index":0,"texCoord":0,"extensions":)"
         R"({{"KHR_texture_transform":{{"offset":[0.5,0],"scale":[2,3],"texCoord":1}}}}}}}}}}],)",
         image);
-    const MeshFile mesh = open_whole(write_file(
+    const MeshFile mesh = open_as_it_stands(write_file(
         folder, "a.glb",
         maker.glb(rest +
                   one_primitive(fmt::format(R"("attributes":{{"POSITION":{},"TEXCOORD_0":{},"TEXCOORD_1":{}}},"material":0)",
@@ -146,8 +170,8 @@ TEST(GltfMesh, BuffersMayLieBesideOrInADataUri) {
     const int positions = maker.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
     const std::string rest = one_primitive(fmt::format(R"("attributes":{{"POSITION":{}}})", positions));
     write_file(folder, "my buffer.bin", maker.binary());
-    const MeshFile beside = open_whole(write_file(folder, "a.gltf", maker.json(rest, "my%20buffer.bin")));
-    const MeshFile inside = open_whole(
+    const MeshFile beside = open_as_it_stands(write_file(folder, "a.gltf", maker.json(rest, "my%20buffer.bin")));
+    const MeshFile inside = open_as_it_stands(
         write_file(folder, "b.gltf",
                    maker.json(rest, "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA")));
     EXPECT_EQ(beside.mesh.positions_m, inside.mesh.positions_m);
@@ -177,7 +201,7 @@ TEST(GltfMesh, MeshoptCompressionGivesTheSameMesh) {
     const std::string rest = R"("extensionsRequired":["EXT_meshopt_compression"],)" +
                              one_primitive(fmt::format(R"("attributes":{{"POSITION":{}}},"indices":{})", positions, index));
     const std::string fallback = R"(,{"byteLength":72,"extensions":{"EXT_meshopt_compression":{"fallback":true}}})";
-    const MeshFile mesh = open_whole(write_file(folder, "a.glb", maker.glb(rest, fallback)));
+    const MeshFile mesh = open_as_it_stands(write_file(folder, "a.glb", maker.glb(rest, fallback)));
     EXPECT_EQ(mesh.report.face_count, 2u);
     EXPECT_EQ(area_of(mesh.mesh), 1);
 }
@@ -203,7 +227,7 @@ TEST(GltfMesh, DracoCompressionGivesTheSameMesh) {
                             R"({{"bufferView":{},"attributes":{{"POSITION":{}}}}}}})",
                             positions, indices, view, square->attribute(attribute)->unique_id())));
     };
-    const MeshFile mesh = open_whole(write_file(folder, "a.glb", file(maker)));
+    const MeshFile mesh = open_as_it_stands(write_file(folder, "a.glb", file(maker)));
     EXPECT_EQ(mesh.report.face_count, 2u);
     EXPECT_NEAR(area_of(mesh.mesh), 1, 1e-5);
 }

@@ -40,12 +40,20 @@ Reader reader_of(const InputFile& file) {
     return nullptr;
 }
 
+// From y up to z up, a quarter turn about x: nothing is rounded.
+void stand_up(Soup& soup) {
+    for (glm::dvec3& p : soup.positions) p = {p.x, -p.z, p.y};
+    for (glm::vec3& n : soup.mesh.normals) n = {n.x, -n.z, n.y};
+}
+
 Result<MeshFile> read(const InputFile& file) {
     if (file.bytes.empty()) return bad_input("{}: is empty", file.path);
     const Reader reader = reader_of(file);
     if (!reader) return bad_input("{}: is no mesh of a known form; read are .obj, .ply, .off, .stl, .gltf and .glb", file.path);
     Result<Soup> soup = reader(file);
     if (!soup) return tl::unexpected(soup.error());
+    Up up = file.options.up != Up::automatic ? file.options.up : reader == read_gltf ? Up::y : Up::z;
+    if (up == Up::y) stand_up(*soup);
     return finish(std::move(*soup), file);
 }
 

@@ -1,6 +1,7 @@
 // Meshes in: OBJ, PLY, OFF, STL and glTF, repaired and accounted for.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "formats/result.h"
@@ -9,8 +10,16 @@
 
 namespace overlook::mesh {
 
+// Which of the file's axes points up. The mesh's own is always z.
+enum class Up : uint8_t {
+    automatic = 0,  // what the form says: glTF y; the others say nothing and stay as they are
+    y = 1,          // (x, y, z) of the file becomes (x, -z, y)
+    z = 2,
+};
+
 struct Options {
     double metres_per_unit = 1;  // the file's unit of length; > 0
+    Up up = Up::automatic;
     bool reads_textures = true;  // whether pictures beside the file are read into Surface::texture_bytes
 };
 

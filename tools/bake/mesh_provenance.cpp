@@ -16,6 +16,8 @@ struct Choice {
 const Choice kChoices[] = {
     {"metres-per-unit", [](const BakeChoices& c) { return c.input.metres_per_unit; },
      [](BakeChoices& c, double v) { c.input.metres_per_unit = v; }, 1e-9, 1e9},
+    {"up-axis", [](const BakeChoices& c) { return double(c.input.up); },
+     [](BakeChoices& c, double v) { c.input.up = Up(uint8_t(v)); }, 0, 2},
     {"crease-deg", [](const BakeChoices& c) { return c.bake.groups.crease_deg; },
      [](BakeChoices& c, double v) { c.bake.groups.crease_deg = v; }, 0, 180},
     {"weld-normals-deg", [](const BakeChoices& c) { return c.bake.groups.weld_normals_deg; },

@@ -124,6 +124,10 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
     verb->add_option("--metres-per-unit", args.choices.input.metres_per_unit, "The file's unit of length")
         ->check(command::number_in(1e-9, 1e9))
         ->capture_default_str();
+    verb->add_option("--up", args.up,
+                     "The file's axis that points up, z in what is baked: y, z, or auto (what the form says: glTF y, others z)")
+        ->check(CLI::IsMember({"auto", "y", "z"}))
+        ->capture_default_str();
     verb->add_option("--crease-angle", groups.crease_deg,
                      "Degrees by which a surface without normals in its file may turn at an edge and still be shaded smooth")
         ->check(command::number_in(0, 180))
@@ -143,7 +147,8 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
     return verb;
 }
 
-int bake_mesh(const MeshArgs& args, const command::Common& common) {
+int bake_mesh(MeshArgs args, const command::Common& common) {
+    args.choices.input.up = args.up == "y" ? mesh::Up::y : args.up == "z" ? mesh::Up::z : mesh::Up::automatic;
     if (auto checked = check_output(args); !checked) return command::fail(kName, checked.error());
     auto begin = std::chrono::steady_clock::now();
     auto file = mesh::open_mesh(args.mesh, args.choices.input);

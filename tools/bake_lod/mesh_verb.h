@@ -12,10 +12,11 @@ struct MeshArgs {
     std::string mesh;
     std::string output;
     std::string codec = caveclod::kDefaultCodec == caveclod::Codec::draco ? "draco" : "meshopt";
+    std::string up = "auto";
     mesh::BakeChoices choices;
 };
 
 CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common);
-int bake_mesh(const MeshArgs& args, const command::Common& common);
+int bake_mesh(MeshArgs args, const command::Common& common);
 
 }  // namespace overlook::bake_lod

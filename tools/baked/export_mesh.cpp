@@ -77,7 +77,6 @@ std::vector<Rgb> colours_by_class(const Hierarchy& h) {
 // Corners are written apart where their colours differ: by render vertex and face colour.
 MeshData mesh_of(const Hierarchy& h, const CutFaces& cut, const std::string& colour) {
     MeshData mesh;
-    mesh.has_own_axes = true;
     std::vector<Rgb> by_class = colour == "class" ? colours_by_class(h) : std::vector<Rgb>{};
     std::vector<std::pair<uint64_t, uint32_t>> corners;  // (vertex, face's colour number), corner
     for (size_t f = 0; f < cut.face.size(); ++f)

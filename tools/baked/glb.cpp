@@ -58,8 +58,7 @@ int add_accessor(tinygltf::Model& model, int view, int component, int type, size
 }
 
 // glTF is right-handed with y up: (x, y, z) -> (x, z, -y), where z is height.
-std::array<double, 3> gltf_axes(const MeshData& mesh, double x, double y, double z) {
-    if (mesh.has_own_axes) return {x, y, z};
+std::array<double, 3> gltf_axes(double x, double y, double z) {
     return {x, z, -y};
 }
 
@@ -68,7 +67,7 @@ std::vector<float> gltf_positions(const MeshData& mesh, const double middle[3], 
     std::vector<float> out;
     out.reserve(mesh.positions.size());
     for (size_t i = 0; i < mesh.positions.size(); i += 3) {
-        for (double value : gltf_axes(mesh, mesh.positions[i] - middle[0], mesh.positions[i + 1] - middle[1],
+        for (double value : gltf_axes(mesh.positions[i] - middle[0], mesh.positions[i + 1] - middle[1],
                                       mesh.positions[i + 2] - middle[2])) {
             out.push_back(float(value));
             rounding_m = std::max(rounding_m, std::abs(double(float(value)) - value));
@@ -133,7 +132,7 @@ tinygltf::Model model_of(const MeshData& mesh, MeshReport& report) {
     model.meshes.push_back(gltf_mesh);
     tinygltf::Node node;
     node.mesh = 0;
-    std::array<double, 3> centre = gltf_axes(mesh, middle[0], middle[1], middle[2]);
+    std::array<double, 3> centre = gltf_axes(middle[0], middle[1], middle[2]);
     node.translation.assign(centre.begin(), centre.end());
     model.nodes.push_back(node);
     tinygltf::Scene scene;

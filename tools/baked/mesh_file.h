@@ -30,8 +30,7 @@ Result<MeshReport> write_mesh(const std::string& path, MeshSpace space, const te
 
 // One triangle list with positions and colours, ready for a file.
 struct MeshData {
-    bool has_own_axes = false;      // axes are the file's, whatever they mean; else z is height, which glTF has as y
-    std::vector<double> positions;  // [3n]
+    std::vector<double> positions;  // [3n] z is height, which glTF has as y
     std::vector<uint8_t> colours;   // [3n] or empty
     std::vector<uint32_t> indices;  // [3m], counter-clockwise seen from outside
 };

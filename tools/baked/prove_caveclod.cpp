@@ -9,15 +9,18 @@
 namespace overlook::caveclod {
 namespace {
 
-// A triangle by its corners' steps on the grid that positions are stored on, the least corner first: equal for equal triangles.
+// A triangle by its corners' steps on the grid that positions are stored on, turned so that the least comes first (of triangles
+// with two corners in one place, too): equal for equal triangles.
 using Key = std::array<int64_t, 9>;
 using Steps = std::array<int64_t, 3>;
 
 Key key_of(const std::array<Steps, 3>& corners) {
-    size_t first = size_t(std::min_element(corners.begin(), corners.end()) - corners.begin());
-    Key key;
-    for (size_t c = 0; c < 3; ++c) std::copy_n(corners[(first + c) % 3].begin(), 3, key.begin() + ptrdiff_t(3 * c));
-    return key;
+    auto turned = [&](size_t first) {
+        Key key;
+        for (size_t c = 0; c < 3; ++c) std::copy_n(corners[(first + c) % 3].begin(), 3, key.begin() + ptrdiff_t(3 * c));
+        return key;
+    };
+    return std::min({turned(0), turned(1), turned(2)});
 }
 
 Steps steps_of(const glm::dvec3& relative_m, double step_m) {
@@ -73,7 +76,7 @@ double farthest_moved_m(const Hierarchy& h, const mesh::Mesh& source) {
 
 bool Proof::holds() const {
     return broken_law.empty() && lost_triangle_count == 0 && foreign_triangle_count == 0 &&
-           finest_moved_m <= finest_stated_m * (1 + 1e-6) && cuts.broken_count == 0;
+           finest_moved_m <= finest_stated_m * (1 + 1e-6) && cuts.broken_count == 0 && cuts.turned_count == 0;
 }
 
 Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, const ProofOptions& options,
@@ -88,7 +91,7 @@ Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, const ProofOpt
     proof.finest_stated_m = double(hierarchy.finest_error_m);
     proof.finest_moved_m = farthest_moved_m(hierarchy, source);
     progress(0.1);
-    proof.cuts = prove_cuts(hierarchy, options);
+    proof.cuts = prove_cuts(hierarchy, options, [&](double share) { progress(0.1 + 0.9 * share); });
     progress(1);
     return proof;
 }

@@ -26,6 +26,8 @@ ordered_json json_of(const caveclod::Proof& proof) {
              {{"count", cuts.cut_count},
               {"broken", cuts.broken_count},
               {"first_broken_seed", cuts.first_broken_seed},
+              {"faces", cuts.face_count},
+              {"turned_faces", cuts.turned_count},
               {"greatest_share_of_promise_used", cuts.greatest_measured_share},
               {"median_stated_over_measured", cuts.median_stated_over_measured},
               {"greatest_stated_over_measured", cuts.greatest_stated_over_measured}}}};
@@ -44,6 +46,8 @@ void print_text(const caveclod::Proof& proof) {
     if (cuts.broken_count > 0)
         fmt::print("BROKEN: {} cuts are farther from the source than promised, first that of seed {}\n", cuts.broken_count,
                    cuts.first_broken_seed);
+    fmt::print("{} of their {} faces are turned by more than 90 degrees from the source under them{}\n",
+               with_commas(cuts.turned_count), with_commas(cuts.face_count), cuts.turned_count == 0 ? "" : "  BROKEN");
     fmt::print("{}\n", proof.holds() ? "every promise holds" : "a promise is broken");
 }
 

@@ -49,6 +49,7 @@ TEST_P(RealHierarchy, KeepsItsPromiseInRandomCuts) {
     options.cut_count = 6;
     CutsProof proof = prove_cuts(hierarchy_, options);
     EXPECT_EQ(proof.broken_count, 0u) << "first with seed " << proof.first_broken_seed;
+    EXPECT_EQ(proof.turned_count, 0u) << "of " << proof.face_count;
 }
 
 TEST_P(RealHierarchy, DrawsOnlyRenderVerticesOfTheFacesOwnGroup) {

@@ -72,6 +72,24 @@ TEST(MeshProof, HoldsWhatReadingHasMoved) {
     EXPECT_GE(*std::min_element(hierarchy->error_m.begin(), hierarchy->error_m.end()), 0.25f);
 }
 
+TEST(MeshProof, FindsFacesThatAreTurned) {
+    mesh::Mesh mesh = test::torus(24, 12, 3, 1);
+    Hierarchy hierarchy = baked(mesh);
+    EXPECT_EQ(proof_of(hierarchy, mesh).cuts.turned_count, 0u);
+    // A few positions on the other side of the torus: what is drawn between there and here lies across.
+    for (uint32_t p = 0; p < hierarchy.base_position_count; ++p) hierarchy.positions_m[p] = -hierarchy.positions_m[p];
+    EXPECT_GT(proof_of(hierarchy, mesh).cuts.turned_count, 0u);
+    EXPECT_FALSE(proof_of(hierarchy, mesh).holds());
+}
+
+TEST(MeshProof, KnowsTrianglesWithTwoCornersInOnePlace) {
+    mesh::Mesh mesh = test::torus(24, 12, 3, 1);
+    for (size_t p = 0; p + 7 < mesh.positions_m.size(); p += 7) mesh.positions_m[p] = mesh.positions_m[p + 1];
+    Proof proof = proof_of(baked(mesh), mesh);
+    EXPECT_EQ(proof.lost_triangle_count, 0u);
+    EXPECT_EQ(proof.foreign_triangle_count, 0u);
+}
+
 TEST(MeshProof, FindsABrokenLaw) {
     mesh::Mesh mesh = test::torus(24, 12, 3, 1);
     Hierarchy hierarchy = baked(mesh);
@@ -82,14 +100,16 @@ TEST(MeshProof, FindsABrokenLaw) {
 TEST(MeshChoices, ComeBackFromTheirWords) {
     mesh::BakeChoices choices;
     choices.input.metres_per_unit = 0.0254;
+    choices.input.up = mesh::Up::y;
     choices.bake.groups.crease_deg = 40;
     choices.bake.groups.ignores_uv = true;
     choices.bake.precision.position_bits = 16;
     container::Provenance provenance{"bake-lod mesh", "1", mesh::options_in_words(choices), {}};
-    EXPECT_EQ(provenance.options.size(), 4u);
+    EXPECT_EQ(provenance.options.size(), 5u);
     auto back = mesh::choices_from_words(provenance);
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->input.metres_per_unit, 0.0254);
+    EXPECT_EQ(back->input.up, mesh::Up::y);
     EXPECT_EQ(back->bake.groups.crease_deg, 40);
     EXPECT_TRUE(back->bake.groups.ignores_uv);
     EXPECT_EQ(back->bake.precision.position_bits, 16u);

@@ -1,5 +1,7 @@
 #include "tools/bake/caveclod/bake.h"
 
+#include <utility>
+
 namespace overlook::caveclod {
 namespace {
 
@@ -18,6 +20,18 @@ void note_groups(const Groups& groups, BakeReport& report) {
     report.floor_face_estimate = groups.floor_face_estimate;
 }
 
+// The mesh with its positions where they will be stored, and how far that moved them: what is measured and judged from here on is
+// what will be drawn.
+mesh::Mesh on_grid(const mesh::Mesh& mesh, const Precision& precision, Grid& grid, double& moved_m) {
+    Hierarchy positions;
+    positions.positions_m = mesh.positions_m, positions.origin_m = mesh.origin_m;
+    moved_m = quantise(positions, precision).position_m;
+    grid = positions.grid;
+    mesh::Mesh moved = mesh;
+    moved.positions_m = std::move(positions.positions_m), moved.origin_m = positions.origin_m;
+    return moved;
+}
+
 }  // namespace
 
 Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeReport& report,
@@ -28,12 +42,18 @@ Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeR
     if (!groups) return tl::unexpected(groups.error());
     note_groups(*groups, report);
     progress(kGrouped);
-    auto hierarchy = build_hierarchy(mesh, *groups, options.simplify, &report.simplify);
+    Grid grid;
+    double moved_m = 0;
+    auto hierarchy =
+        build_hierarchy(on_grid(mesh, options.precision, grid, moved_m), *groups, options.simplify, &report.simplify,
+                        [&](double share) { progress(kGrouped + (kBuilt - kGrouped) * share); });
     if (!hierarchy) return tl::unexpected(hierarchy.error());
     progress(kBuilt);
 
     canonicalise(*hierarchy);
+    hierarchy->grid = grid;
     report.quantised = quantise(*hierarchy, options.precision);
+    report.quantised.position_m = moved_m;
     add_displacement(*hierarchy, report.quantised.position_m + options.source_rounding_m);
     if (auto completed = complete(*hierarchy); !completed) return tl::unexpected(completed.error());
     round_errors(*hierarchy);

@@ -91,6 +91,7 @@ bool keeps_orientation(const WorkingMesh& mesh, const Fan& fan) {
         glm::dvec3 turned = glm::cross(a - kept, b - kept), before = glm::cross(a - gone, b - gone);
         double longest2 = std::max({glm::dot(a - kept, a - kept), glm::dot(b - kept, b - kept), glm::dot(b - a, b - a)});
         double turned2 = glm::dot(turned, turned), before2 = glm::dot(before, before), both = glm::dot(turned, before);
+        if (before2 == 0) continue;
         if (turned2 <= kLeastHeightShare * kLeastHeightShare * longest2 * longest2) return false;
         if (both <= 0 || both * both < kLeastTurnCosine * kLeastTurnCosine * turned2 * before2) return false;
     }

@@ -20,7 +20,8 @@ bool keeps_topology(const WorkingMesh& mesh, const Fan& fan);
 // vertex of its own group that its own render vertex shares a going face with. Fills `turned` if so.
 bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turned);
 
-// Whether no turned face degenerates (as seen in float32) or turns its normal by more than about 75 degrees.
+// Whether no turned face degenerates (as seen in float32) or turns its normal by more than about 75 degrees; one that had no area
+// may do as it likes.
 bool keeps_orientation(const WorkingMesh& mesh, const Fan& fan);
 
 }  // namespace overlook::caveclod

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <functional>
 
 #include "tools/bake/caveclod/cut.h"
 
@@ -19,13 +19,16 @@ struct ProofOptions {
 struct CutsProof {
     uint64_t cut_count = 0, broken_count = 0;
     uint64_t first_broken_seed = 0;                                             // random_cut's
+    uint64_t face_count = 0, turned_count = 0;                                  // drawn in all cuts; of them is_turned
     double greatest_measured_share = 0;                                         // measured over stated: above 1 is broken
     double median_stated_over_measured = 0, greatest_stated_over_measured = 0;  // of cuts with a measurable distance
 };
 
 // Draws the cuts and measures the two-sided distance of each to the finest cut, from below: a measured distance above the stated
 // error (by more than the rounding of positions) breaks the promise. The finest cut stands for the source, so finest_error_m is
-// not tried. Same hierarchy and options, same answer for any number of threads. O(cut_count * F log F).
-CutsProof prove_cuts(const Hierarchy& hierarchy, const ProofOptions& options);
+// not tried. Faces that are turned from that source (turned_faces.h) are counted. `progress` is called with the share done, 0..1,
+// from this thread. Same hierarchy and options, same answer for any number of threads. O(cut_count * F log F).
+CutsProof prove_cuts(const Hierarchy& hierarchy, const ProofOptions& options,
+                     const std::function<void(double)>& progress = [](double) {});
 
 }  // namespace overlook::caveclod

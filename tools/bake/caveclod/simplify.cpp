@@ -1,15 +1,25 @@
 #include "tools/bake/caveclod/simplify.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/bake/caveclod/hierarchy_rows.h"
 #include "tools/bake/caveclod/simplify_passes.h"
 #include "tools/bake/caveclod/stopwatch.h"
 
 namespace overlook::caveclod {
+namespace {
+
+// Candidates cost in proportion to what is left, distances to the source about the same from each halving to the next.
+double share_done(uint64_t faces_left, uint64_t faces_before) {
+    double left = double(std::max<uint64_t>(faces_left, 1)), before = double(std::max<uint64_t>(faces_before, 2));
+    return 0.5 * (1 - left / before) + 0.5 * std::log(before / left) / std::log(before);
+}
+
+}  // namespace
 
 Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, const SimplifyOptions& options,
-                                  SimplifyReport* report) {
+                                  SimplifyReport* report, const std::function<void(double)>& progress) {
     SimplifyReport counted;
     auto working = [&] {
         Stopwatch watch(counted.topology_s);
@@ -18,8 +28,7 @@ Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, 
     if (!working) return tl::unexpected(working.error());
     CollapseLog log;
     Passes passes(*working, counted);
-    while (passes.run(options.least_face_count, log)) {
-    }
+    while (passes.run(options.least_face_count, log)) progress(share_done(passes.face_count(), mesh.faces.size()));
     Hierarchy hierarchy = [&] {
         Stopwatch watch(counted.rows_s);
         return make_rows(mesh, groups, *working, log);

@@ -28,10 +28,29 @@ uint32_t step_of(float cost_m) {
     return std::bit_cast<uint32_t>(cost_m) >> 16;
 }
 
+float float_at_least(double value) {
+    float rounded = float(value);
+    return double(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+}
+
+std::vector<Triangle> triangles_of(const WorkingMesh& mesh) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(mesh.face_count());
+    for (const WorkingFace& face : mesh.faces)
+        triangles.push_back({mesh.at(face.position[0]), mesh.at(face.position[1]), mesh.at(face.position[2])});
+    return triangles;
+}
+
 }  // namespace
 
 Passes::Passes(WorkingMesh& mesh, SimplifyReport& report)
-    : mesh_(mesh), report_(report), quadrics_(make_quadrics(mesh)), map_(make_surface_map(mesh)) {
+    : mesh_(mesh),
+      report_(report),
+      quadrics_(make_quadrics(mesh)),
+      map_(make_surface_map(mesh)),
+      source_(triangles_of(mesh)),
+      slack_m_(turn_slack_m(mesh.positions_m)),
+      face_error_m_(mesh.face_count(), 0.0f) {
     face_count_ = mesh.face_count();
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
@@ -164,24 +183,37 @@ void Passes::measure() {
     parallel_ranges(chosen_.size(), kFanGrain, [&](size_t begin, size_t end) {
         MapChanges& changes = changes_[begin / kFanGrain];
         changes.splices.clear(), changes.added.clear();
-        for (size_t i = begin; i < end; ++i) {
-            prepare(chosen_[i], fans_[i]);
-            Chosen& chosen = chosen_[i];
-            chosen.measured = measure_collapse(map_, mesh_, fans_[i].fan, chosen.fan, changes);
-            uint32_t place = map_.placement[chosen.gone].place;
-            chosen.worst_m =
-                std::max(chosen.measured.error_m, attribute_deviation_m(mesh_, fans_[i].fan, fans_[i].turned, place));
-        }
+        for (size_t i = begin; i < end; ++i) measure_one(chosen_[i], fans_[i], changes);
     });
+}
+
+void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& changes) {
+    prepare(chosen, prepared);
+    const Fan& fan = prepared.fan;
+    chosen.measured = measure_collapse(map_, mesh_, fan, chosen.fan, changes);
+    uint32_t place = map_.placement[chosen.gone].place;
+    chosen.worst_m = std::max(chosen.measured.error_m, attribute_deviation_m(mesh_, fan, prepared.turned, place));
+    chosen.fan_error_m = chosen.measured.error_m;
+    for (uint32_t i = 0; i < fan.count; ++i)
+        chosen.fan_error_m = std::max(chosen.fan_error_m, double(face_error_m_[fan.corner[i] / kCorners]));
+    bool may_be_made = chosen.measured.faces_its_source && chosen.worst_m <= kWorst * limit_m_;
+    if (may_be_made) chosen.measured.faces_its_source = turns_no_face(chosen, fan);
+}
+
+// Every point of a new face is where the map has moved some point of the source, so some source is within the fan's error of it.
+bool Passes::turns_no_face(const Chosen& chosen, const Fan& fan) const {
+    std::array<Triangle, kMostValence> faces;
+    uint32_t count = 0;
+    for (uint32_t i = fan.first; i <= fan.last; ++i)
+        faces[count++] = {mesh_.at(fan.kept), mesh_.at(fan.link[i]), mesh_.at(fan.link[i + 1])};
+    return none_is_turned(source_, std::span(faces).first(count), chosen.fan_error_m, slack_m_);
 }
 
 void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const {
     const Fan& fan = prepared.fan;
-    float error_m = float(chosen.measured.error_m);
-    if (double(error_m) < chosen.measured.error_m) error_m = std::nextafter(error_m, std::numeric_limits<float>::infinity());
     log.gone.push_back(chosen.gone);
     log.kept.push_back(chosen.kept);
-    log.error_m.push_back(error_m);
+    log.error_m.push_back(float_at_least(chosen.measured.error_m));
     for (uint32_t i = 0; i < fan.count; ++i) {
         bool stays = i >= fan.first && i <= fan.last;
         log.turns.push_back({fan.corner[i], mesh_.vertex(fan.corner[i]), stays ? prepared.turned[i] : kNone});
@@ -230,6 +262,8 @@ void Passes::apply() {
         for (size_t i = begin; i < end; ++i) {
             const Chosen& chosen = chosen_[i];
             if (!chosen.is_made) continue;
+            for (uint32_t f = fans_[i].fan.first; f <= fans_[i].fan.last; ++f)
+                face_error_m_[fans_[i].fan.corner[f] / kCorners] = float_at_least(chosen.fan_error_m);
             apply_to_map(map_, mesh_, fans_[i].fan, chosen.measured, changes_[begin / kFanGrain]);
             apply_collapse(mesh_, fans_[i].fan, fans_[i].turned);
             quadrics_[chosen.kept].add(quadrics_[chosen.gone]);
@@ -238,17 +272,19 @@ void Passes::apply() {
     });
 }
 
-// Round the position that went, costs change; round the one that stayed, only what is allowed does.
+// Costs change here, and what is allowed. The old cost serves as a guess until the pass comes to it and looks closely; only where
+// nothing was allowed is a new one needed.
+void Passes::forget(uint32_t position) {
+    uint8_t least = candidates_[position].kept == kNone ? kNothing : kGuess;
+    std::atomic_ref known(known_[position]);
+    if (known.load(std::memory_order_relaxed) > least) known.store(least, std::memory_order_relaxed);
+}
+
 void Passes::mark_around(const Fan& fan) {
     Star star;
-    for (uint32_t i = 0; i <= fan.count; ++i) std::atomic_ref(known_[fan.link[i]]).store(kNothing, std::memory_order_relaxed);
+    for (uint32_t i = 0; i <= fan.count; ++i) forget(fan.link[i]);
     if (!gather_star(mesh_, fan.kept, star)) return;
-    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) {
-        uint8_t least = candidates_[star.link[i]].kept == kNone ? kNothing : kGuess;
-        std::atomic_ref known(known_[star.link[i]]);
-        for (uint8_t now = known.load(std::memory_order_relaxed); now > least;)
-            if (known.compare_exchange_weak(now, least, std::memory_order_relaxed)) break;
-    }
+    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) forget(star.link[i]);
 }
 
 }  // namespace overlook::caveclod

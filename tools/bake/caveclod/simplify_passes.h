@@ -6,6 +6,7 @@
 #include "tools/bake/caveclod/collapse_cost.h"
 #include "tools/bake/caveclod/simplify.h"
 #include "tools/bake/caveclod/surface_map.h"
+#include "tools/bake/caveclod/turned_faces.h"
 
 namespace overlook::caveclod {
 
@@ -23,7 +24,8 @@ class Passes {
     struct Chosen {
         uint32_t gone = kNone, kept = kNone, fan = kNone;
         Measured measured;
-        double worst_m = 0;  // of the error and what attributes lose
+        double worst_m = 0;      // of the error and what attributes lose
+        double fan_error_m = 0;  // of all that is drawn in the fan afterwards
         bool is_made = false;
     };
 
@@ -41,16 +43,22 @@ class Passes {
     bool claim(uint32_t gone, uint32_t kept);
     void prepare(const Chosen& chosen, TurnedFan& prepared) const;
     void measure();
+    void measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& changes);
+    bool turns_no_face(const Chosen& chosen, const Fan& fan) const;
     void decide(CollapseLog& log);
     void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const;
     void provide_crossings();
     void apply();
+    void forget(uint32_t position);
     void mark_around(const Fan& fan);
 
     WorkingMesh& mesh_;
     SimplifyReport& report_;
     std::vector<Quadric> quadrics_;
     SurfaceMap map_;
+    TriangleTree source_;
+    double slack_m_ = 0;
+    std::vector<float> face_error_m_;  // [F] of all that is drawn where the face is
     uint64_t face_count_ = 0;
     double limit_m_ = 0;
 
