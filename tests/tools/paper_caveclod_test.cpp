@@ -64,7 +64,11 @@ TEST(Clips, AreLedUpToAndSettledOnlyAfterAGap) {
         [&](uint32_t frame, bool is_counted) { (is_counted ? counted : led).push_back(frame); });
     EXPECT_EQ(settled, (std::vector<uint32_t>{0, 100 - kLeadFrames}));
     EXPECT_EQ(counted, (std::vector<uint32_t>{0, 1, 2, 3, 100}));
-    EXPECT_EQ(led.size(), kLeadFrames);
+    ASSERT_EQ(led.size(), 2 * kLeadFrames);
+    EXPECT_EQ(led[0], 0u);
+    EXPECT_EQ(led[kLeadFrames - 1], 0u) << "the cameras stand where the flight begins";
+    EXPECT_EQ(led[kLeadFrames], 100 - kLeadFrames);
+    EXPECT_EQ(led.back(), 99u);
 }
 
 // n, d of the printed rows by hand: 643,064 = 4n + 4 * 80,000 + 16, and so on.
@@ -92,7 +96,7 @@ scene::Flight flight_of(double x_m, double heading_deg) {
 }
 
 // Hills of 40 x 40 cells in two surfaces, and four cameras that look different ways.
-Subject small_subject() {
+Subject make_subject() {
     World world;
     MeshWorld& made = world.mesh.emplace();
     made.hierarchy = std::make_unique<caveclod::Hierarchy>(caveclod::synthetic::bake(caveclod::synthetic::hills(40, 40, 2)));
@@ -102,6 +106,11 @@ Subject small_subject() {
     subject.printed = std::make_unique<caveclod::paper::Mesh>(*subject.world.mesh->hierarchy);
     for (uint32_t i = 0; i < kMostCameras; ++i) subject.flights[i] = flight_of(6.0 + 8 * i, 90.0 * i);
     return subject;
+}
+
+const Subject& small_subject() {
+    static const Subject kSubject = make_subject();
+    return kSubject;
 }
 
 Flying small_flying() {
@@ -118,7 +127,7 @@ uint64_t operations_of(const Flyover& flyover) {
 }
 
 TEST(Flyovers, CountEveryOperationOfEveryCamera) {
-    Subject subject = small_subject();
+    const Subject& subject = small_subject();
     Flyover own = fly(subject, small_flying(), Way::own, 4);
     ASSERT_EQ(own.frames.size(), 45u);
     ASSERT_EQ(own.frames[0].cameras.size(), 4u);
@@ -130,7 +139,7 @@ TEST(Flyovers, CountEveryOperationOfEveryCamera) {
 }
 
 TEST(Flyovers, OfOneRefinementForAllTakeMoreOperationsAndDrawAsMuch) {
-    Subject subject = small_subject();
+    const Subject& subject = small_subject();
     Flyover own = fly(subject, small_flying(), Way::own, 4), shared = fly(subject, small_flying(), Way::shared, 4);
     EXPECT_GT(operations_of(shared), 2 * operations_of(own));
     EXPECT_NEAR(mean_faces(shared) / mean_faces(own), 1, 0.2);
@@ -138,7 +147,7 @@ TEST(Flyovers, OfOneRefinementForAllTakeMoreOperationsAndDrawAsMuch) {
 }
 
 TEST(Flyovers, UseMoreVerticesTheMoreCamerasLookAtOneSize) {
-    Subject subject = small_subject();
+    const Subject& subject = small_subject();
     Flyover three = fly(subject, small_flying(), Way::own, 3), four = fly(subject, small_flying(), Way::own, 4);
     EXPECT_GT(mean_used_share(four), mean_used_share(three));
     EXPECT_LE(mean_used_share(four), 1);
@@ -147,7 +156,7 @@ TEST(Flyovers, UseMoreVerticesTheMoreCamerasLookAtOneSize) {
 }
 
 TEST(Flyovers, AreTheSameEveryTime) {
-    Subject subject = small_subject();
+    const Subject& subject = small_subject();
     for (Way way : kWays) {
         Flyover a = fly(subject, small_flying(), way, 2), b = fly(subject, small_flying(), way, 2);
         for (size_t i = 0; i < a.frames.size(); ++i)
@@ -159,7 +168,7 @@ TEST(Flyovers, AreTheSameEveryTime) {
 }
 
 TEST(Speed, IsOfTheSameFacesOnAnyNumberOfThreads) {
-    Subject subject = small_subject();
+    const Subject& subject = small_subject();
     Speed speed = measure_speed(subject, small_flying(), [](double) {});
     EXPECT_TRUE(speed.is_same);
     EXPECT_GT(speed.own_faces, 0);
@@ -169,8 +178,8 @@ TEST(Speed, IsOfTheSameFacesOnAnyNumberOfThreads) {
 }
 
 // One terrain, every way with one to four cameras.
-Flown small_flown() {
-    Subject subject = small_subject();
+Flown make_flown() {
+    const Subject& subject = small_subject();
     Flown flown;
     flown.flying = small_flying();
     flown.flight_s = 4;
@@ -188,6 +197,11 @@ Flown small_flown() {
     flown.rates = {{1, 50, 10}, {2, 100, 20}};
     flown.speed = {2, 30, 20, true, 4, 40, 1e6, 1e6, 3e6, 10};
     return flown;
+}
+
+const Flown& small_flown() {
+    static const Flown kFlown = make_flown();
+    return kFlown;
 }
 
 TEST(Table1, IsCountedByEquation1) {

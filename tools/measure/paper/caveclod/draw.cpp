@@ -30,6 +30,7 @@ class Screen {
     }
 
     void settle(double time_s) { team_->settle(cameras_of(time_s)); }
+    void refine(double time_s) { team_->refine(cameras_of(time_s), subject_.step_s(), {}); }
     // Milliseconds until everything is drawn.
     double draw(double time_s) {
         std::vector<view::Camera> cameras = cameras_of(time_s);
@@ -93,10 +94,10 @@ Result<std::vector<Rate>> frame_rates(const Subject& subject, const Flying& flyi
         },
         [&](uint32_t frame, bool is_counted) {
             double time_s = frame * subject.step_s(), with_ms = 0, without_ms = 0;
+            if (!is_counted) return own.refine(time_s);  // what is shared begins anew in every frame
             bool is_own_first = turn++ % 2 == 0;
             for (bool is_own : {is_own_first, !is_own_first})
                 (is_own ? with_ms : without_ms) = (is_own ? own : shared).draw(time_s);
-            if (!is_counted) return;
             times.frame_s.push_back(time_s);
             times.with_ms.push_back(with_ms);
             times.without_ms.push_back(without_ms);

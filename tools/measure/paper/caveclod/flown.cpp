@@ -32,6 +32,15 @@ double faces_of(const FlownFrame& frame) {
     return faces;
 }
 
+double bytes_a_face(const Flyover& flyover, uint64_t CameraMemory::*kind) {
+    double bytes = 0, faces = 0;
+    for (const FlownFrame& frame : flyover.frames) {
+        for (const CameraRecord& camera : frame.cameras) bytes += double(camera.memory.*kind);
+        faces += faces_of(frame);
+    }
+    return bytes / std::max(1.0, faces);
+}
+
 template <class Row>
 void each_flyover(const Flown& flown, const Row& row) {
     for (const FlownSubject& subject : flown.subjects)
@@ -58,12 +67,10 @@ std::optional<double> operations_ratio(const FlownSubject& subject, Way way, uin
 }
 
 double active_bytes_a_face(const Flyover& flyover) {
-    double bytes = 0, faces = 0;
-    for (const FlownFrame& frame : flyover.frames) {
-        for (const CameraRecord& camera : frame.cameras) bytes += double(camera.memory.active_bytes);
-        faces += faces_of(frame);
-    }
-    return bytes / std::max(1.0, faces);
+    return bytes_a_face(flyover, &CameraMemory::active_bytes);
+}
+double glide_bytes_a_face(const Flyover& flyover) {
+    return bytes_a_face(flyover, &CameraMemory::glide_bytes);
 }
 
 double mean_faces(const Flyover& flyover) {

@@ -46,6 +46,7 @@ struct Flown {
 std::optional<double> operations_ratio(const FlownSubject& subject, Way way, uint32_t cameras);
 // Bytes that all cameras keep for what is active, over their faces; the mean over frames.
 double active_bytes_a_face(const Flyover& flyover);
+double glide_bytes_a_face(const Flyover& flyover);  // of them, what is on its way
 double mean_faces(const Flyover& flyover);       // of one camera
 double mean_used_share(const Flyover& flyover);  // of all render vertices, by all cameras together
 

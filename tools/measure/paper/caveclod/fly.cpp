@@ -81,12 +81,12 @@ void over_frames(std::span<const Clip> clips, bool has_memory, const std::functi
                  const std::function<void(uint32_t, bool)>& of) {
     uint32_t lead = has_memory ? kLeadFrames : kShortLead;
     for (size_t i = 0; i < clips.size(); ++i) {
-        uint32_t frame = clips[i].begin;
-        if (i == 0 || clips[i - 1].end != frame) {
-            frame -= std::min(frame, lead);
-            settle(frame);
+        if (i == 0 || clips[i - 1].end != clips[i].begin) {
+            auto before = [&](uint32_t frames) { return clips[i].begin - std::min(clips[i].begin, frames); };
+            settle(before(lead));
+            for (uint32_t frames = lead; frames > 0; --frames) of(before(frames), false);
         }
-        for (; frame < clips[i].end; ++frame) of(frame, frame >= clips[i].begin);
+        for (uint32_t frame = clips[i].begin; frame < clips[i].end; ++frame) of(frame, true);
     }
 }
 

@@ -47,7 +47,7 @@ struct Flyover {
 };
 
 // Every clip that does not go on from the one before is begun kLeadFrames earlier, with everything settled: what a flight that is
-// under way knows. Those frames are not counted.
+// under way knows; at the flight's beginning the cameras stand there as long. Those frames are not counted.
 constexpr uint32_t kLeadFrames = 30;
 Flyover fly(const Subject& subject, const Flying& flying, Way way, uint32_t cameras);
 

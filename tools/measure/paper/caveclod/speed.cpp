@@ -1,7 +1,7 @@
 #include "tools/measure/paper/caveclod/speed.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 #include "formats/parallel.h"
 #include "runtime/gl/timer.h"
@@ -65,47 +65,58 @@ class Threads {
     unsigned all_;
 };
 
+// The least that each frame took, over all runs.
+class LeastTimes {
+  public:
+    void begin_run() { next_ = 0; }
+    void take(double ms) {
+        if (next_ == least_ms_.size()) least_ms_.push_back(ms);
+        least_ms_[next_] = std::min(least_ms_[next_], ms);
+        ++next_;
+    }
+    double sum_ms() const { return std::accumulate(least_ms_.begin(), least_ms_.end(), 0.0); }
+
+  private:
+    std::vector<double> least_ms_;
+    size_t next_ = 0;
+};
+
 // One run of four cameras on one thread and on all.
-void run_four(const Subject& subject, const Flying& flying, const Threads& threads, Speed& least) {
+void run_four(const Subject& subject, const Flying& flying, const Threads& threads, LeastTimes& single_ms, LeastTimes& parallel_ms,
+              bool& is_same) {
     Crew single(subject, flying, Way::own, kMostCameras), parallel(subject, flying, Way::own, kMostCameras);
-    double single_ms = 0, parallel_ms = 0;
     uint32_t turn = 0;
+    single_ms.begin_run(), parallel_ms.begin_run();
     over_frames(
-        clips_of(subject, flying), true,
-        [&](uint32_t frame) { single.settle(frame), parallel.settle(frame); },
+        clips_of(subject, flying), true, [&](uint32_t frame) { single.settle(frame), parallel.settle(frame); },
         [&](uint32_t frame, bool is_counted) {
             bool is_parallel_first = turn++ % 2 == 1;
             for (bool is_parallel : {is_parallel_first, !is_parallel_first}) {
                 is_parallel ? threads.many() : threads.one();
                 double ms = (is_parallel ? parallel : single).refine(frame);
-                if (is_counted) (is_parallel ? parallel_ms : single_ms) += ms;
+                if (is_counted) (is_parallel ? parallel_ms : single_ms).take(ms);
             }
-            if (turn % kClipFrames == 0) least.is_same = least.is_same && single.hash(frame) == parallel.hash(frame);
+            if (turn % kClipFrames == 0) is_same = is_same && single.hash(frame) == parallel.hash(frame);
         });
-    least.single_ms = std::min(least.single_ms, single_ms);
-    least.parallel_ms = std::min(least.parallel_ms, parallel_ms);
 }
 
-// One run of camera A alone.
-void run_one(const Subject& subject, const Flying& flying, Speed& least) {
+// One run of camera A alone. Writes what is counted, the same in every run, into `speed`.
+void run_one(const Subject& subject, const Flying& flying, LeastTimes& own_ms, LeastTimes& printed_ms, Speed& speed) {
     Crew own(subject, flying, Way::own, 1), printed(subject, flying, Way::printed, 1);
-    Speed run;
+    speed.own_faces = speed.printed_faces = speed.own_bytes = 0;
+    own_ms.begin_run(), printed_ms.begin_run();
     over_frames(
-        clips_of(subject, flying), true,
-        [&](uint32_t frame) { own.settle(frame), printed.settle(frame); },
+        clips_of(subject, flying), true, [&](uint32_t frame) { own.settle(frame), printed.settle(frame); },
         [&](uint32_t frame, bool is_counted) {
-            double own_ms = own.refine(frame), printed_ms = printed.refine(frame);
+            double one_ms = own.refine(frame), other_ms = printed.refine(frame);
             if (!is_counted) return;
-            run.own_ms += own_ms, run.printed_ms += printed_ms;
+            own_ms.take(one_ms), printed_ms.take(other_ms);
             const caveclod::FrameReport& report = own.team().reports()[0];
-            run.own_faces += double(report.triangle_count);
-            run.printed_faces += double(printed.team().reports()[0].triangle_count);
-            run.own_bytes += least_bytes({report.split_count, report.collapse_count, report.evaluated_count, 0, {}},
-                                         subject.mesh().split_count());
+            speed.own_faces += double(report.triangle_count);
+            speed.printed_faces += double(printed.team().reports()[0].triangle_count);
+            speed.own_bytes += least_bytes({report.split_count, report.collapse_count, report.evaluated_count, 0, {}},
+                                           subject.mesh().split_count());
         });
-    least.own_ms = std::min(least.own_ms, run.own_ms);
-    least.printed_ms = std::min(least.printed_ms, run.printed_ms);
-    least.own_faces = run.own_faces, least.printed_faces = run.printed_faces, least.own_bytes = run.own_bytes;
 }
 
 }  // namespace
@@ -117,19 +128,21 @@ double least_bytes(const CameraRecord& camera, uint64_t split_count) {
 }
 
 Speed measure_speed(const Subject& subject, const Flying& flying, const std::function<void(double)>& done) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     Threads threads;
-    Speed least;
-    least.threads = threads.all();
-    least.single_ms = least.parallel_ms = least.own_ms = least.printed_ms = kNone;
+    Speed speed;
+    speed.threads = threads.all();
+    LeastTimes single_ms, parallel_ms, own_ms, printed_ms;
     for (int repeat = 0; repeat < kSpeedRepeats; ++repeat) {
-        run_four(subject, flying, threads, least);
-        run_one(subject, flying, least);
+        run_four(subject, flying, threads, single_ms, parallel_ms, speed.is_same);
+        threads.one();
+        run_one(subject, flying, own_ms, printed_ms, speed);
         done(double(repeat + 1) / kSpeedRepeats);
     }
+    speed.single_ms = single_ms.sum_ms(), speed.parallel_ms = parallel_ms.sum_ms();
+    speed.own_ms = own_ms.sum_ms(), speed.printed_ms = printed_ms.sum_ms();
     threads.many();
-    least.bandwidth_gb_s = memory_bandwidth_gb_s();
-    return least;
+    speed.bandwidth_gb_s = memory_bandwidth_gb_s();
+    return speed;
 }
 
 }  // namespace overlook::measure::paper::cameras

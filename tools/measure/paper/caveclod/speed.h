@@ -8,8 +8,8 @@
 
 namespace overlook::measure::paper::cameras {
 
-// Sums over all frames of the flight's clips, the least of kSpeedRepeats runs; what is held against each other took turns frame by
-// frame.
+// Sums over all frames of the flight's clips, of each frame the least of kSpeedRepeats runs; what is held against each other took
+// turns frame by frame.
 constexpr int kSpeedRepeats = 5;
 struct Speed {
     unsigned threads = 1;                       // of `parallel`

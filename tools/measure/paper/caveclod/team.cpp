@@ -12,7 +12,7 @@ constexpr uint32_t kMostTraversals = 256;  // until nothing is left to do
 
 CameraMemory memory_of_refinement(const Refinement& refinement) {
     Refinement::Bytes bytes = refinement.bytes();
-    return {bytes.fixed, bytes.active + bytes.glides, 0, refinement.faces().face_count()};
+    return {bytes.fixed, bytes.active + bytes.glides, bytes.glides, 0, refinement.faces().face_count()};
 }
 
 class OwnTeam : public Team {
@@ -99,7 +99,7 @@ class PrintedTeam : public Team {
         const printed::CameraRefinement& own = *refinements_[camera];
         printed::Equation1 terms =
             printed::equation1(0, 0, 0, 0, 0, own.active_node_count(), own.active_polygon_count(), 1);
-        return {fixed_bytes_, terms.active_nodes + terms.active_polygons, own.active_node_count(), own.active_polygon_count()};
+        return {fixed_bytes_, terms.active_nodes + terms.active_polygons, 0, own.active_node_count(), own.active_polygon_count()};
     }
 
   private:

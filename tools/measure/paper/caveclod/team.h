@@ -26,6 +26,7 @@ std::string name_of(Way way);
 // What one camera keeps.
 struct CameraMemory {
     uint64_t fixed_bytes = 0, active_bytes = 0;
+    uint64_t glide_bytes = 0;                    // of the active ones: of what is on its way
     uint64_t node_count = 0, polygon_count = 0;  // active ones; nodes of the paper's structures alone
 };
 
