@@ -71,9 +71,9 @@ std::string operations_html(const Flown& flown) {
         }
     for (const FlownSubject& subject : flown.subjects) html += coarser_rows(subject);
     return html +
-           "</tbody></table></div>\n<p class=\"note\">caveclod makes more of them than caveclod:paper: it splits 10 degrees beyond "
-           "the frame's border before anything comes into view, collapses only below 0.7 of the error, and splits whatever a "
-           "triangle was measured with; the paper's legality lets triangles be drawn that nobody has measured. With one camera "
+           "</tbody></table></div>\n<p class=\"note\">Beyond what the picture needs, caveclod splits 10 degrees outside the frame's "
+           "border and whatever a triangle was measured with, and collapses only below 0.7 of the error; caveclod:paper has no such "
+           "band, and lets triangles be drawn that nobody has measured. With one camera "
            "nothing is brought from one to another. <a href=\"flyovers.csv\">flyovers.csv</a>, <a "
            "href=\"windows.csv\">windows.csv</a></p>\n";
 }

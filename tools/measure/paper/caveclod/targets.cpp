@@ -105,8 +105,8 @@ Target parallel(const Flown& flown) {
                           speed.threads, short_number(speed.single_ms), short_number(speed.parallel_ms), kSpeedRepeats,
                           speed.is_same ? "the same to the byte" : "DIFFER");
     if (!is.is_reached(1))
-        is.why = fmt::format("a frame of four cameras takes {} us on one thread: handing it to another, and the camera that has "
-                             "most to do, are not shared out",
+        is.why = fmt::format("a frame of four cameras takes {} us on one thread, so little that waking another costs much of what "
+                             "it gains, and nothing is gained where other work has the second core",
                              short_number(1000 * speed.single_ms / flown.flying.frames));
     return is;
 }
