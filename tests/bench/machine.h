@@ -14,10 +14,6 @@ unsigned core_count();
 // and digits, without (R) and (TM), every run of other characters one hyphen, and the cores: "amd-epyc-7b13-8-cores".
 std::string machine_kind(const std::string& processor, unsigned cores);
 
-// Bytes a second that all threads together move through memory: the triad a[i] = b[i] + s * c[i] over arrays far larger than any
-// cache, counted as three times eight bytes an element (McCalpin's STREAM). In 10^9 bytes a second.
-double memory_bandwidth_gb_s();
-
 // The most this process held at any time since forget_peak_memory(), in 10^6 bytes.
 void forget_peak_memory();
 double peak_memory_mb();

@@ -11,6 +11,7 @@
 #include "tests/bench/csv_reporter.h"
 #include "tests/bench/inputs.h"
 #include "tests/bench/machine.h"
+#include "tools/measure/numbers/memory_bandwidth.h"
 
 using namespace overlook;
 
@@ -55,7 +56,7 @@ int measure_all(const Args& args, const command::Common& common) {
     std::error_code problem;
     std::filesystem::create_directories(args.out, problem);
     add_all(args);
-    bench::CsvReporter reporter({processor, bench::core_count(), bench::memory_bandwidth_gb_s()},
+    bench::CsvReporter reporter({processor, bench::core_count(), measure::memory_bandwidth_gb_s()},
                                 [&](const std::string& line) { command::note(common, line); });
     benchmark::RunSpecifiedBenchmarks(&reporter);
     if (!reporter.failure().empty()) return command::fail("bench", {Exit::our_bug, reporter.failure()});

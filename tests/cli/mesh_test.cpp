@@ -72,7 +72,7 @@ TEST(MeshCommands, BakeLookProveAndExport) {
         EXPECT_TRUE(all == 0 || triangles < all) << triangles;
         all = triangles;
     }
-    for (const char* colour : {"source", "group", "class"})
+    for (const char* colour : {"source", "group", "id", "class"})
         expect_done(run({"baked", "export", baked, "--error-m", "0.1", "-o", folder / "cut.glb", "--colour", colour}));
 }
 

@@ -82,7 +82,10 @@ MeshData mesh_of(const Hierarchy& h, const CutFaces& cut, const std::string& col
     for (size_t f = 0; f < cut.face.size(); ++f)
         for (uint32_t c = 0; c < 3; ++c) {
             uint32_t group = h.face_group[cut.face[f]];
-            uint32_t own = colour == "group" ? group : colour == "class" ? 0 : h.group_surface[group];
+            uint32_t own = colour == "group"   ? group
+                           : colour == "id"    ? h.group_packed[group]
+                           : colour == "class" ? 0
+                                               : h.group_surface[group];
             corners.emplace_back(uint64_t(cut.vertices[f][c]) << 32 | own, uint32_t(3 * f + c));
         }
     std::sort(corners.begin(), corners.end());
@@ -93,9 +96,9 @@ MeshData mesh_of(const Hierarchy& h, const CutFaces& cut, const std::string& col
             uint32_t own = uint32_t(corners[i].first);
             glm::dvec3 at_m = h.origin_m + glm::dvec3(h.positions_m[vertex.position]);
             mesh.positions.insert(mesh.positions.end(), {at_m.x, at_m.y, at_m.z});
-            Rgb rgb = colour == "group"   ? colour_of_number(own)
-                      : colour == "class" ? by_class[vertex.position]
-                                          : times(h.surfaces[own].colour, vertex.colour);
+            Rgb rgb = colour == "group" || colour == "id" ? colour_of_number(own)
+                      : colour == "class"                 ? by_class[vertex.position]
+                                                          : times(h.surfaces[own].colour, vertex.colour);
             mesh.colours.insert(mesh.colours.end(), rgb.begin(), rgb.end());
         }
         mesh.indices[corners[i].second] = uint32_t(mesh.positions.size() / 3 - 1);

@@ -49,9 +49,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     export_verb
         ->add_option("--colour", cut.colour,
-                     "Of a mesh. source: its own colours. group: one for each surface group. class: free green, sharp yellow, rigid "
-                     "red")
-        ->check(CLI::IsMember({"source", "group", "class"}))
+                     "Of a mesh. source: its own colours. group: one for each surface group. id: one for each packed id of groups. "
+                     "class: free green, sharp yellow, rigid red")
+        ->check(CLI::IsMember({"source", "group", "id", "class"}))
         ->capture_default_str();
 
     for (CLI::App* verb : {info_verb, diff_verb, export_verb}) command::add_common(*verb, common);
