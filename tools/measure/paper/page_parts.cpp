@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/measure/page.h"
 #include "tools/measure/page_style.h"
+#include "tools/measure/page_text.h"
 
 namespace overlook::measure::paper {
 namespace {

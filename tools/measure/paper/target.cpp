@@ -39,8 +39,8 @@ std::string targets_html(const std::vector<Target>& targets, const std::vector<s
 }
 
 std::string target_line(const Target& target, const std::vector<std::string>& columns) {
-    std::string line = fmt::format("{}: paper {}, to reach {} {}", target.name, target.printed, target.is_at_least ? ">=" : "<=",
-                                   short_number(target.goal));
+    std::string line = fmt::format("{}: paper {}, to reach {} {}", target.name, target.printed,
+                                   target.is_at_least ? ">=" : "<=", short_number(target.goal));
     for (size_t i = 0; i < columns.size(); ++i)
         line += fmt::format("; {} {}", columns[i], target.measured[i] ? short_number(*target.measured[i]) : "not measured");
     return line;

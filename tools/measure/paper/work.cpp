@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "tools/measure/page.h"
+#include "tools/measure/page_text.h"
 
 namespace overlook::measure::paper {
 

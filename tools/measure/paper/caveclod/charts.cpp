@@ -79,13 +79,12 @@ Chart operations(const Flown& flown, Way way) {
 }
 
 Chart rates(const Flown& flown) {
-    Chart chart{"figure-12",
-                "Figure 12: frames a second, four cameras over " + title_of(flown.subjects[flown.canyon]),
+    Chart chart{"figure-12", "Figure 12: frames a second, four cameras over " + title_of(flown.subjects[flown.canyon]),
                 chart_head(2)};
     chart.script += over_flight(flown, "frames a second") + "set yrange [0:*]\n";
-    chart.script += joined({"'../frame_rates.csv' skip 1 using 1:2 with linespoints " + solid(0) + " title 'with CAVECLOD'",
-                            "'../frame_rates.csv' skip 1 using 1:3 with linespoints " + solid(1) +
-                                " title 'without: one refinement for all'"});
+    chart.script += joined(
+        {"'../frame_rates.csv' skip 1 using 1:2 with linespoints " + solid(0) + " title 'with CAVECLOD'",
+         "'../frame_rates.csv' skip 1 using 1:3 with linespoints " + solid(1) + " title 'without: one refinement for all'"});
     return chart;
 }
 

@@ -50,9 +50,8 @@ void each_flyover(const Flown& flown, const Row& row) {
 }  // namespace
 
 const Flyover* FlownSubject::find(Way way, uint32_t cameras, double step) const {
-    auto found = std::find_if(flyovers.begin(), flyovers.end(), [&](const Flyover& one) {
-        return one.way == way && one.cameras == cameras && one.step_s == step;
-    });
+    auto found = std::find_if(flyovers.begin(), flyovers.end(),
+                              [&](const Flyover& one) { return one.way == way && one.cameras == cameras && one.step_s == step; });
     return found == flyovers.end() ? nullptr : &*found;
 }
 
@@ -118,9 +117,9 @@ std::string memory_csv(const Flown& flown) {
     each_flyover(flown, [&](const FlownSubject& subject, const Flyover& flyover) {
         if (flyover.step_s != subject.step_s) return;
         for (const Window& window : windows_of(flyover))
-            csv += fmt::format(
-                "{},{},{},{},{}\n", subject.name, name_of(flyover.way), flyover.cameras, window.time_s,
-                mean_over(window.frames, [&](const FlownFrame& frame) { return bytes_of(subject, flyover, frame); }));
+            csv +=
+                fmt::format("{},{},{},{},{}\n", subject.name, name_of(flyover.way), flyover.cameras, window.time_s,
+                            mean_over(window.frames, [&](const FlownFrame& frame) { return bytes_of(subject, flyover, frame); }));
     });
     return csv;
 }

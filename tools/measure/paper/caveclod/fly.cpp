@@ -23,7 +23,7 @@ class UsedVertices {
     }
 
   private:
-    // A vertex on its way is made of two.
+    // A vertex on its way is made of up to four.
     void add(const caveclod::Refinement& refinement) {
         auto use = [&](uint32_t index) {
             if (index < mesh_.vertex_count()) {
@@ -31,7 +31,8 @@ class UsedVertices {
                 return;
             }
             const caveclod::GlideVertex& glide = refinement.glide_vertices()[index - mesh_.vertex_count()];
-            is_used_[glide.from] = is_used_[glide.to] = true;
+            for (uint32_t from : glide.from) is_used_[from] = true;
+            is_used_[glide.to()] = true;
         };
         const caveclod::FaceSlots& faces = refinement.faces();
         for (uint32_t surface = 0; surface < faces.surface_count(); ++surface)

@@ -82,8 +82,8 @@ class LeastTimes {
 };
 
 // One run of four cameras on one thread and on all.
-void run_four(const Subject& subject, const Flying& flying, const Threads& threads, LeastTimes& single_ms, LeastTimes& parallel_ms,
-              bool& is_same) {
+void run_four(const Subject& subject, const Flying& flying, const Threads& threads, LeastTimes& single_ms,
+              LeastTimes& parallel_ms, bool& is_same) {
     Crew single(subject, flying, Way::own, kMostCameras), parallel(subject, flying, Way::own, kMostCameras);
     uint32_t turn = 0;
     single_ms.begin_run(), parallel_ms.begin_run();

@@ -44,8 +44,8 @@ Result<Subject> read_subject(const std::string& folder) {
     Subject subject{folder_name(folder), std::move(*world), nullptr, {}, {}, {}, {}};
     subject.printed = std::make_unique<caveclod::paper::Mesh>(*subject.world.mesh->hierarchy);
     if (Result<void> read = read_flights(folder, subject.flights); !read) return tl::unexpected(read.error());
-    for (auto [name, into] : {std::pair("groups", &subject.groups), std::pair("classes", &subject.classes),
-                              std::pair("ids", &subject.ids)}) {
+    for (auto [name, into] :
+         {std::pair("groups", &subject.groups), std::pair("classes", &subject.classes), std::pair("ids", &subject.ids)}) {
         Result<void> read = read_if_there(fmt::format("{}/{}.ovl", folder, name), *into);
         if (!read) return tl::unexpected(read.error());
     }

@@ -83,9 +83,15 @@ Solved solved(const PrintedTerrain& terrain) {
 
 Counted counted_of(const Subject& subject) {
     const caveclod::Hierarchy& hierarchy = *subject.world.mesh->hierarchy;
-    Counted is{subject.printed->nodes().size(), hierarchy.face_positions.size(), hierarchy.vertices.size(),
-               subject.printed->packed_count(), hierarchy.positions_m.size(),    {},
-               0,                               subject.mesh().bytes().all(),    caveclod::Refinement(subject.mesh()).bytes().fixed};
+    Counted is{subject.printed->nodes().size(),
+               hierarchy.face_positions.size(),
+               hierarchy.vertices.size(),
+               subject.printed->packed_count(),
+               hierarchy.positions_m.size(),
+               {},
+               0,
+               subject.mesh().bytes().all(),
+               caveclod::Refinement(subject.mesh()).bytes().fixed};
     is.terms = caveclod::paper::equation1(is.nodes, is.polygons, is.vertices, is.ids, is.positions, 0, 0, 1);
     is.population = double(subject.printed->populated_count()) / double(std::max<uint64_t>(1, is.ids * is.positions));
     return is;
@@ -100,20 +106,22 @@ std::string table1_csv(const std::vector<Table1Row>& rows) {
         csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", row.name, is.nodes, is.polygons, is.vertices, is.ids,
                            is.positions, is.terms.nodes, is.terms.polygons, is.terms.vertices, is.terms.index_array,
                            is.terms.static_bytes(), is.terms.cameras, is.population);
-        csv += row.printed ? fmt::format(",{},{},{}", row.printed->static_bytes, row.printed->camera_bytes, row.printed->population)
-                           : ",,,";
+        csv += row.printed
+                   ? fmt::format(",{},{},{}", row.printed->static_bytes, row.printed->camera_bytes, row.printed->population)
+                   : ",,,";
         csv += fmt::format(",{},{}\n", is.own_static_bytes, is.own_camera_bytes);
     }
     return csv;
 }
 
 std::string table1_html(const std::vector<Table1Row>& rows) {
-    std::string html =
-        "<h2>Table 1: memory, in bytes</h2>\n<div class=\"wide\"><table class=\"runs numbers\">\n<thead>" +
-        table_row({"", "polygons", "static", "a camera", "share", "ids", "index array in use"}, "th") + "</thead>\n<tbody>\n";
+    std::string html = "<h2>Table 1: memory, in bytes</h2>\n<div class=\"wide\"><table class=\"runs numbers\">\n<thead>" +
+                       table_row({"", "polygons", "static", "a camera", "share", "ids", "index array in use"}, "th") +
+                       "</thead>\n<tbody>\n";
     for (const Table1Row& row : rows) html += row_html(row);
     return html +
-           "</tbody></table></div>\n<p class=\"note\">Equation 1: static 44n + 12p + 32d + 2se, a camera 4n + 4p + 16; n nodes, p "
+           "</tbody></table></div>\n<p class=\"note\">Equation 1: static 44n + 12p + 32d + 2se, a camera 4n + 4p + 16; n nodes, "
+           "p "
            "polygons, d vertices, s ids, e positions. On average the paper's camera takes 10.5 % of the static part. Overlook's "
            "form keeps compressed rows of 32-bit instead of the array; what is active comes to it: figure 14. <a "
            "href=\"table1.csv\">table1.csv</a></p>\n";

@@ -25,7 +25,8 @@ Value worst(const Flown& flown, bool is_at_least, const Of& of) {
 std::string each(const Flown& flown, const Of& of) {
     std::string text;
     for (const FlownSubject& subject : flown.subjects)
-        if (Value value = of(subject)) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", title_of(subject), short_number(*value));
+        if (Value value = of(subject))
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", title_of(subject), short_number(*value));
     return text;
 }
 
@@ -56,8 +57,9 @@ Target by_terrain(const Flown& flown, Target is, const Of& printed, const Of& ow
 
 Target operations(const Flown& flown) {
     auto ratio = [](Way way) { return Of([way](const FlownSubject& s) { return operations_ratio(s, way, kMostCameras); }); };
-    Target is = by_terrain(flown, target("splits and collapses a second and camera: times fewer than shared", "more than 7", 10, true),
-                           ratio(Way::printed), ratio(Way::own), "four cameras, equal pixel error; the least of the terrains. ");
+    Target is =
+        by_terrain(flown, target("splits and collapses a second and camera: times fewer than shared", "more than 7", 10, true),
+                   ratio(Way::printed), ratio(Way::own), "four cameras, equal pixel error; the least of the terrains. ");
     if (!is.is_reached(1)) is.why = "the cameras move so far from frame to frame that most of what one sees is new to it";
     return is;
 }
@@ -78,8 +80,9 @@ Target camera_memory(const Flown& flown) {
 
 Target active_memory(const Flown& flown) {
     auto active = [](Way way) { return Of([way](const FlownSubject& s) { return active_of(s, way); }); };
-    Target is = by_terrain(flown, target("active state, bytes a triangle", "42", 24, false), active(Way::printed), active(Way::own),
-                           "mean over a flyover, the worst of 1 to 4 cameras; 12 a node and 36 a polygon in the paper. ");
+    Target is =
+        by_terrain(flown, target("active state, bytes a triangle", "42", 24, false), active(Way::printed), active(Way::own),
+                   "mean over a flyover, the worst of 1 to 4 cameras; 12 a node and 36 a polygon in the paper. ");
     if (!is.is_reached(1))
         is.why = "16 bytes of indices and face and 5 to 6 of its handle are needed; beside them what glides (bytes a triangle: " +
                  each(flown, [](const FlownSubject& s) { return glides_of(s); }) +
@@ -101,13 +104,15 @@ Target parallel(const Flown& flown) {
     const Speed& speed = flown.speed;
     Target is = target("four cameras on all threads: times faster than on one", "sequential", 1.8, true);
     is.measured = {std::nullopt, speed.is_same ? Value(speed.gain()) : std::nullopt};
-    is.note = fmt::format("{} threads; {} ms a run on one, {} ms on all, of each frame the least of {} runs, in turns; index buffers {}",
-                          speed.threads, short_number(speed.single_ms), short_number(speed.parallel_ms), kSpeedRepeats,
-                          speed.is_same ? "the same to the byte" : "DIFFER");
+    is.note = fmt::format(
+        "{} threads; {} ms a run on one, {} ms on all, of each frame the least of {} runs, in turns; index buffers {}",
+        speed.threads, short_number(speed.single_ms), short_number(speed.parallel_ms), kSpeedRepeats,
+        speed.is_same ? "the same to the byte" : "DIFFER");
     if (!is.is_reached(1))
-        is.why = fmt::format("a frame of four cameras takes {} us on one thread, so little that waking another costs much of what "
-                             "it gains, and nothing is gained where other work has the second core",
-                             short_number(1000 * speed.single_ms / flown.flying.frames));
+        is.why = fmt::format(
+            "a frame of four cameras takes {} us on one thread, so little that waking another costs much of what "
+            "it gains, and nothing is gained where other work has the second core",
+            short_number(1000 * speed.single_ms / flown.flying.frames));
     return is;
 }
 

@@ -97,8 +97,7 @@ class PrintedTeam : public Team {
     }
     CameraMemory memory_of(size_t camera) const override {
         const printed::CameraRefinement& own = *refinements_[camera];
-        printed::Equation1 terms =
-            printed::equation1(0, 0, 0, 0, 0, own.active_node_count(), own.active_polygon_count(), 1);
+        printed::Equation1 terms = printed::equation1(0, 0, 0, 0, 0, own.active_node_count(), own.active_polygon_count(), 1);
         return {fixed_bytes_, terms.active_nodes + terms.active_polygons, 0, own.active_node_count(), own.active_polygon_count()};
     }
 

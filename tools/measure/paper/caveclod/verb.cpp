@@ -123,8 +123,7 @@ Result<void> deliver(const Flown& flown, const RunSetup& setup, const std::strin
     if (!*drawn) command::note(common, "reproduce: gnuplot is not installed; the charts are left out");
     std::string page = caveclod_page_html({flown, setup, charts, *drawn});
     if (Result<void> written = write_file(out + "/index.html", std::string_view(page)); !written) return written;
-    for (const Target& target : targets_of(flown))
-        command::note(common, "reproduce: " + target_line(target, target_columns()));
+    for (const Target& target : targets_of(flown)) command::note(common, "reproduce: " + target_line(target, target_columns()));
     command::note(common, fmt::format("reproduce: the page: {}/index.html", out));
     return {};
 }
@@ -145,7 +144,8 @@ Result<std::vector<Subject>> read_subjects(const std::vector<std::string>& folde
 
 CLI::App* add_verb(CLI::App& app, PaperOptions& options) {
     CLI::App& verb = *app.add_subcommand(
-        "caveclod", "Section 4 of the CAVECLOD paper: figures 1, 2 and 5 to 14 and table 1 as pictures, tables, charts and a page");
+        "caveclod",
+        "Section 4 of the CAVECLOD paper: figures 1, 2 and 5 to 14 and table 1 as pictures, tables, charts and a page");
     verb.add_option("folder", options.folders,
                     "What make-sample three-lakes, cliff or canyon made, with what scene.json names baked into it; several")
         ->required()
@@ -171,7 +171,8 @@ CLI::App* add_verb(CLI::App& app, PaperOptions& options) {
 Result<void> run_paper(const PaperOptions& options, const std::vector<std::string>& words, const command::Common& common) {
     Flying flying;
     if (Result<void> size = parse_size(options.size, flying.width_px, flying.height_px); !size) return size;
-    if (flying.width_px < 2 || flying.height_px < 2) return bad_command("--size {}: quadrants want two pixels a side", options.size);
+    if (flying.width_px < 2 || flying.height_px < 2)
+        return bad_command("--size {}: quadrants want two pixels a side", options.size);
     Result<std::vector<Subject>> read = read_subjects(options.folders);
     if (!read) return tl::unexpected(read.error());
     flying.settings.error_px = options.error_px;
