@@ -23,9 +23,11 @@ enum class KeyMode {
 constexpr uint32_t kThreadFrames = 8;
 
 struct Settings {
-    double error_px = 1;          // the promise of the fine cut; keys show it as far as their texels can (Director::key_cut_px)
-    double low_error_px = 16;     // of the coarse cut of novel frames
-    double key_error_px = 1;      // a new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it
+    double error_px = 1;       // the promise of keys' cut; they show it as far as their texels can (Director::key_cut_px)
+    double low_error_px = 16;  // of the coarse cut of novel frames
+    // A new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it. A frame's own geometry keeps it
+    // where no key shows what is there (or error_px, where that is more, but not more than low_error_px).
+    double key_error_px = 1;
     double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
     double guard = 1.15;
     uint32_t scale = 2;         // texels of a key a pixel, in both directions
@@ -126,6 +128,7 @@ class Director {
     bool has_before() const { return before_ && slots_[*before_].is_whole; }
     view::PictureMask open_parts() const;
     double most_error_px() const;
+    double fine_error_px() const;
     bool spends_all() const;
     uint32_t frames_to_make(uint32_t left);
     bool serves(const Reuse& reuse) const;

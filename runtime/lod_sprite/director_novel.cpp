@@ -71,6 +71,11 @@ view::PictureMask Director::open_parts() const {
     return {current_shown_.columns, current_shown_.rows, is_open};
 }
 
+// What keys shown again need not keep, a frame's own geometry need not either.
+double Director::fine_error_px() const {
+    return std::max(settings_.error_px, std::min(settings_.key_error_px, settings_.low_error_px));
+}
+
 bool Director::shows_key() const {
     return current_ && current_reuse_.lost_share() <= kMostLost && current_shown_.surface_share >= kLeastShown;
 }
@@ -94,7 +99,7 @@ void Director::cut_coarse() {
     }
     for (int tries = 0; tries < kMostTries && !fits; ++tries) {
         double coarser = spending_.coarser(is_coarse);
-        novel_.near_error_px = settings_.error_px * coarser;
+        novel_.near_error_px = fine_error_px() * coarser;
         novel_.low_error_px = is_coarse ? settings_.low_error_px * coarser : novel_.near_error_px;
         refiner_.cut_by_pixels(camera_,
                                {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px,
@@ -118,7 +123,7 @@ const Novel& Director::novel() {
     bool has_key = shows_key();
     novel_.error_p99_px = has_key ? current_reuse_.drawn_p99_px : novel_.near_error_px;
     novel_.error_max_px = has_key ? current_reuse_.drawn_max_px : novel_.near_error_px;
-    if (novel_.near_error_px > settings_.error_px && novel_.near_triangle_count > 0) {
+    if (novel_.near_error_px > fine_error_px() && novel_.near_triangle_count > 0) {
         novel_.error_p99_px = std::max(novel_.error_p99_px, novel_.near_error_px);
         novel_.error_max_px = std::max(novel_.error_max_px, novel_.near_error_px);
     }

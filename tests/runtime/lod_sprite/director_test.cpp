@@ -137,18 +137,22 @@ int frames_without_key(Flight& flight, view::Camera camera, const glm::dvec3& st
     return 100;
 }
 
+// What frames with keys keep, frames without one keep as well: keys may be made of finer triangles than anybody asks of a frame.
 TEST(Director, KeepsTheErrorAskedWhileThereIsNoKey) {
-    Settings settings;
-    settings.error_px = 0.1;  // a key of more triangles than a slice
-    Flight flight(settings);
-    view::Camera camera = start_pose();
-    terrain::Cut unkeyed;
-    ground().refiner.cut_by_pixels(camera, settings.error_px, unkeyed, settings.morph);
-    Frame first = flight.step(camera);
-    ASSERT_TRUE(first.novel.is_fine);
-    EXPECT_EQ(first.indices, unkeyed.indices);
-    EXPECT_EQ(first.novel.error_p99_px, settings.error_px);
-    EXPECT_EQ(first.novel.near_triangle_count, 0u);
+    for (double key_error_px : {0.1, 0.5}) {
+        Settings settings;
+        settings.error_px = 0.1;  // a key of more triangles than a slice
+        settings.key_error_px = key_error_px;
+        Flight flight(settings);
+        view::Camera camera = start_pose();
+        terrain::Cut unkeyed;
+        ground().refiner.cut_by_pixels(camera, key_error_px, unkeyed, settings.morph);
+        Frame first = flight.step(camera);
+        ASSERT_TRUE(first.novel.is_fine);
+        EXPECT_EQ(first.indices, unkeyed.indices);
+        EXPECT_EQ(first.novel.error_p99_px, key_error_px);
+        EXPECT_EQ(first.novel.near_triangle_count, 0u);
+    }
 }
 
 TEST(Director, HasAKeyWithinFifteenFramesOfTheStart) {
