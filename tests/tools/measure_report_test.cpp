@@ -1,6 +1,8 @@
 // Tables, JSON and page of a run made by hand.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -75,7 +77,8 @@ TEST(FramesTable, LeavesEmptyWhatWasNotTaken) {
 
 TEST(FramesTable, NamesTheUnitOfEveryNumberThatHasOne) {
     static const std::regex kCounts(
-        "triangles|key_triangles|key_pixels|vertex_references|draw_calls|tested|events|operations|wrong_corners|luma_difference|g_max|g_median|g_above");
+        "triangles|key_triangles|key_pixels|vertex_references|draw_calls|tested|events|operations|wrong_corners|luma_difference|"
+        "g_max|g_median|g_above");
     for (const Figure& one : figures()) {
         std::string name(one.name);
         bool has_unit = std::regex_search(name, std::regex("_(ms|px|bytes|db|luma|flip|share)$"));
@@ -238,6 +241,23 @@ TEST(Page, SaysWhenThereAreNoCharts) {
     std::string html = page_html({course, a_setup(), charts_of(course), false});
     EXPECT_NE(html.find("gnuplot was not installed"), std::string::npos);
     EXPECT_EQ(html.find("charts/front_ms.svg"), std::string::npos);
+}
+
+// Whatever settings stand after the one that is swept.
+TEST(Charts, AreDrawnOfRunsWithAnySettings) {
+    if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "gnuplot is not installed: no chart was drawn";
+    CourseResult course = a_course();
+    course.runs[0] = run_of(*parse_method("caveclod@triangles=10000@cameras=3@glide-s=0"), 5, 0.2);
+    course.runs[1] = run_of(*parse_method("caveclod@error-px=2@cameras=4@operations=7"), 5, 0.2);
+    for (RunResult& run : course.runs) run.floor = 2;
+    ScratchFolder folder;
+    ASSERT_TRUE(write_file(folder / "runs.csv", std::string_view(runs_csv(course))));
+    std::vector<Chart> fronts = charts_of(course);
+    std::erase_if(fronts, [](const Chart& chart) { return !chart.name.starts_with("front"); });
+    ASSERT_EQ(fronts.size(), 2u);
+    Result<bool> drawn = draw_charts(fronts, folder.path());
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    EXPECT_TRUE(*drawn);
 }
 
 TEST(Charts, AreTheSameEveryTime) {

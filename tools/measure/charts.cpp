@@ -87,9 +87,11 @@ Chart front(const CourseResult& course, const std::string& name, const std::stri
         ++place;
     }
     chart.script +=
-        "swept(run) = strstrt(run, '@triangles=') > 0 ? gprintf('%.0s%c', real(substr(run, strstrt(run, '@triangles=') + 11, "
-        "strlen(run)))) : strstrt(run, 'error-px=') == 0 ? '' : substr(run, strstrt(run, 'error-px=') + 9, "
-        "strstrt(run . '@samples', '@samples') - 1) . ' px'\n";
+        "value_of(text) = substr(text, 1, strstrt(text . '@', '@') - 1)\n"  // up to the next setting
+        "swept(run) = strstrt(run, '@triangles=') > 0 ? gprintf('%.0s%c', real(value_of(substr(run, strstrt(run, '@triangles=') "
+        "+ "
+        "11, strlen(run))))) : strstrt(run, 'error-px=') == 0 ? '' : value_of(substr(run, strstrt(run, 'error-px=') + 9, "
+        "strlen(run))) . ' px'\n";
     chart.script += "plot " + lines + dots;
     chart.script += fmt::format(
         "'../runs.csv' skip 1 using ($3 == 1 ? ${} : NaN):4:(size_of($10)) with points pt 6 lw 2 ps variable lc rgb \"#000000\" "
