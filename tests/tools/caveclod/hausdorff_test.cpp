@@ -1,8 +1,6 @@
 // An independent judge of the stated error: CGAL's Hausdorff distance with a bounded error.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -40,9 +38,8 @@ Surface surface_of(std::span<const glm::vec3> positions_m, std::span<const std::
 
 TEST(StatedError, IsNotBelowTheHausdorffDistanceOfCgal) {
     // No straight extrusions: where the greatest distance is reached along whole lines, CGAL's search takes minutes and gigabytes.
-    std::vector<mesh::Mesh> meshes{test::sphere(14, 8, 0.05), test::grid(12, 12, test::rough_m), test::torus(14, 8, 1, 0.4),
-                                   test::sphere(18, 10, 0.03), test::grid(8, 16, test::rough_m)};
-    std::vector<double> stated_over_measured;
+    std::vector<mesh::Mesh> meshes{test::sphere(24, 12, 0.05), test::grid(20, 20, test::rough_m), test::torus(24, 12, 1, 0.4),
+                                   test::sphere(18, 10, 0.03), test::grid(16, 30, test::rough_m)};
     for (const mesh::Mesh& mesh : meshes) {
         auto groups = find_groups(mesh, {});
         auto h = build_hierarchy(mesh, *groups, {});
@@ -50,16 +47,13 @@ TEST(StatedError, IsNotBelowTheHausdorffDistanceOfCgal) {
         for (uint64_t seed : {1u, 2u}) {
             Applied applied = random_cut(*h, mesh.faces.size() / (seed == 1 ? 4 : 12), seed);
             Surface cut = surface_of(h->positions_m, faces_of(*h, applied).positions);
-            double stated_m = stated_error_m(*h, applied), bound_m = stated_m / 20;
+            double stated_m = stated_error_m(*h, applied), bound_m = stated_m / 100;
             double measured_m = CGAL::Polygon_mesh_processing::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(
                 source, cut, bound_m);
             EXPECT_LE(measured_m - bound_m, stated_m) << seed;
-            stated_over_measured.push_back(stated_m / (measured_m + bound_m));
+            EXPECT_GE(measured_m + bound_m, stated_m / 1.5) << seed;
         }
     }
-    std::sort(stated_over_measured.begin(), stated_over_measured.end());
-    EXPECT_LE(stated_over_measured[stated_over_measured.size() / 2], 1.25);
-    EXPECT_LE(stated_over_measured.back(), 2);
 }
 
 }  // namespace
