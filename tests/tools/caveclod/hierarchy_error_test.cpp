@@ -81,7 +81,8 @@ TEST(CutsProof, HoldsForTwoThousandCuts) {
         EXPECT_EQ(proof.broken_count, 0u) << "first with seed " << proof.first_broken_seed;
         EXPECT_EQ(proof.turned_count, 0u) << "of " << proof.face_count;
         EXPECT_LE(proof.greatest_measured_share, 1 + 1e-5);
-        EXPECT_LE(proof.median_stated_over_measured, 1.15);
+        // Over the first, collapses that would turn a face are left out; what is done instead is bounded less tightly: 1.133.
+        EXPECT_LE(proof.median_stated_over_measured, &baked == &all[0] ? 1.15 : 1.1);
     }
 }
 
