@@ -5,102 +5,25 @@
 #include <utility>
 
 #include "formats/little_endian.h"
+#include "formats/terrain_extents.h"
 
 namespace overlook::terrain {
 namespace {
 
 constexpr size_t kHeadBytes = 4;  // planes, has_voids, two reserved
 
-uint32_t top_level(const Shape& shape) {
-    return shape.root_log2 - std::min(shape.root_log2, kBlockLog2Max);
-}
-uint32_t block_log2(const Shape& shape) {
-    return std::min(shape.root_log2, kBlockLog2Max);
-}
-
-uint32_t blocks_along(uint32_t samples, uint32_t span_log2) {
-    return uint32_t((uint64_t(samples) - 1 + (uint64_t(1) << span_log2) - 1) >> span_log2);
-}
-
-// The grid of a level from which a block takes its vertices: [i_begin, i_end) x [j_begin, j_end). The last block of a row or
-// column holds all that is left.
-struct Extent {
-    uint32_t level, i_begin, i_end, j_begin, j_end;
-};
-
-Extent extent_of(const Shape& shape, const Block& block, uint32_t level) {
-    LevelGrid grid = level_grid(shape, level);
-    uint32_t span_log2 = block_log2(shape) + block.level, side = span_log2 - level;
-    bool is_last_x = block.bx + 1 == blocks_along(shape.width, span_log2),
-         is_last_y = block.by + 1 == blocks_along(shape.height, span_log2);
-    return {level, std::min(block.bx << side, grid.columns),
-            is_last_x ? grid.columns : std::min((block.bx + 1) << side, grid.columns), std::min(block.by << side, grid.rows),
-            is_last_y ? grid.rows : std::min((block.by + 1) << side, grid.rows)};
-}
-
-// The levels whose vertices a block holds, coarse to fine.
-std::vector<Extent> extents_of(const Shape& shape, const Block& block) {
-    std::vector<Extent> extents;
-    if (block.is_top)
-        for (uint32_t level = shape.root_log2; level-- > block.level;) extents.push_back(extent_of(shape, block, level));
-    else
-        extents.push_back(extent_of(shape, block, block.level));
-    return extents;
-}
-
-// The part of an extent that stands on the raster.
-Extent on_raster(const Shape& shape, Extent extent) {
-    extent.i_end = std::min(extent.i_end, ((shape.width - 1) >> extent.level) + 1);
-    extent.j_end = std::min(extent.j_end, ((shape.height - 1) >> extent.level) + 1);
-    return extent;
-}
-
-// Vertices (i, j), (i + 2, j), ... below i_end of one row.
-struct Run {
-    uint32_t j, i, i_end;
-};
-
-// Calls visit(run) for the vertices of an extent that belong to its level: first middles of squares, then of edges, row by row.
-template <class Visit>
-void visit_runs(const Extent& extent, const Visit& visit) {
-    auto first_from = [](uint32_t begin, uint32_t parity) { return begin + ((begin ^ parity) & 1); };
-    for (uint32_t j = first_from(extent.j_begin, 1); j < extent.j_end; j += 2)
-        visit(Run{j, first_from(extent.i_begin, 1), extent.i_end});
-    for (uint32_t j = extent.j_begin; j < extent.j_end; ++j) visit(Run{j, first_from(extent.i_begin, (j + 1) & 1), extent.i_end});
-}
-
-// How many that are: all but those with two even coordinates.
-uint64_t vertex_count(const Extent& extent) {
-    if (extent.i_begin >= extent.i_end || extent.j_begin >= extent.j_end) return 0;
-    auto evens = [](uint32_t begin, uint32_t end) { return uint64_t((end + 1) / 2) - (begin + 1) / 2; };
-    return uint64_t(extent.i_end - extent.i_begin) * (extent.j_end - extent.j_begin) -
-           evens(extent.i_begin, extent.i_end) * evens(extent.j_begin, extent.j_end);
-}
-
-// The corners of root squares, which belong to no level, as far as a top block holds them.
-template <class Visit>
-void visit_corners(const Shape& shape, const Block& block, const Visit& visit) {
-    if (!block.is_top) return;
-    uint64_t side = uint64_t(1) << shape.root_log2;
-    for (uint64_t y = block.by * side; y <= (block.by + 1) * side && y < shape.height; y += side)
-        for (uint64_t x = block.bx * side; x <= (block.bx + 1) * side && x < shape.width; x += side) {
-            bool is_next_x = x != block.bx * side && block.bx + 1 < shape.root_columns;
-            bool is_next_y = y != block.by * side && block.by + 1 < shape.root_rows;
-            if (!is_next_x && !is_next_y) visit(uint32_t(x), uint32_t(y));
-        }
-}
-
 // A rounded-down mean of the neighbours that are already there: of a square its corners, of an edge its ends and, within the
 // block, the middles of the squares beside it.
 class Predictor {
   public:
     // `extent` is one on the raster.
-    Predictor(const Terrain& terrain, const Extent& extent, bool is_top)
-        : terrain_(terrain),
+    Predictor(const Shape& shape, const HeightGrid& grid, const Extent& extent, bool is_top)
+        : shape_(shape),
+          grid_(grid),
           extent_(extent),
           is_top_(is_top),
-          step_x_(ptrdiff_t(1) << extent.level),
-          step_y_(step_x_ * terrain.shape.width) {}
+          step_x_(ptrdiff_t(1) << (extent.level - grid.log2)),
+          step_y_(step_x_ * ptrdiff_t(grid.stride)) {}
 
     // Where all four neighbours of a vertex of row j are within the block: columns [begin, end), none if end <= begin.
     std::pair<uint32_t, uint32_t> inner_columns(uint32_t j) const {
@@ -144,53 +67,51 @@ class Predictor {
     }
     void add(uint32_t i, uint32_t j, Sum& sum) const {
         uint64_t x = uint64_t(i) << extent_.level, y = uint64_t(j) << extent_.level;
-        if (x >= terrain_.shape.width || y >= terrain_.shape.height) return;
-        int32_t height = terrain_.heights[y * terrain_.shape.width + x];
+        if (x >= shape_.width || y >= shape_.height) return;
+        int32_t height = grid_.heights[grid_.index(uint32_t(x), uint32_t(y))];
         if (height == kVoid) return;
         sum.heights += height, ++sum.count;
     }
 
-    const Terrain& terrain_;
+    const Shape& shape_;
+    const HeightGrid& grid_;
     const Extent& extent_;
     bool is_top_;
-    ptrdiff_t step_x_, step_y_;  // to the next vertex of the level, in samples
+    ptrdiff_t step_x_, step_y_;  // to the next vertex of the level, in the grid
 };
 
 // Calls visit(height index, prediction) for every sample of a block, in the order in which it stands in the file.
 template <class Visit>
-void visit_samples(const Terrain& terrain, const Block& block, const Visit& visit) {
-    const Shape& shape = terrain.shape;
+void visit_samples(const Shape& shape, const HeightGrid& grid, const Block& block, const Visit& visit) {
     int32_t last = 0;
     visit_corners(shape, block, [&](uint32_t x, uint32_t y) {
-        size_t index = size_t(y) * shape.width + x;
+        size_t index = grid.index(x, y);
         visit(index, last);
-        if (terrain.heights[index] != kVoid) last = terrain.heights[index];
+        if (grid.heights[index] != kVoid) last = grid.heights[index];
     });
     for (const Extent& whole : extents_of(shape, block)) {
         Extent extent = on_raster(shape, whole);
-        Predictor predictor(terrain, extent, block.is_top);
+        Predictor predictor(shape, grid, extent, block.is_top);
         visit_runs(extent, [&](Run run) {
-            size_t row = (size_t(run.j) << extent.level) * shape.width;
+            if (run.i >= run.i_end) return;
+            size_t index = grid.index(run.i << extent.level, run.j << extent.level);
             auto [begin, end] = predictor.inner_columns(run.j);
-            for (uint32_t i = run.i; i < run.i_end; i += 2) {
-                size_t index = row + (size_t(i) << extent.level);
+            for (uint32_t i = run.i; i < run.i_end; i += 2, index += size_t(2) << (extent.level - grid.log2)) {
                 bool is_inner = i >= begin && i < end;
-                visit(index, is_inner ? predictor.at_inner(terrain.heights.data() + index, i, run.j) : predictor.at(i, run.j));
+                visit(index, is_inner ? predictor.at_inner(grid.heights + index, i, run.j) : predictor.at(i, run.j));
             }
         });
     }
 }
 
-// Calls visit(code) for every error code of a block, in file order.
-template <class Terrain_, class Visit>
-void visit_codes(Terrain_& terrain, const Block& block, const Visit& visit) {
-    for (const Extent& extent : extents_of(terrain.shape, block)) {
-        uint32_t columns = level_grid(terrain.shape, extent.level).columns;
-        visit_runs(extent, [&](Run run) {
-            auto* row = terrain.codes[extent.level].data() + size_t(run.j) * columns;
-            for (uint32_t i = run.i; i < run.i_end; i += 2) visit(row[i]);
-        });
-    }
+// The codes of a terrain, or of one tile.
+const uint8_t* codes_of(const Terrain& terrain, const Extent& extent, Run run) {
+    return terrain.codes[extent.level].data() + size_t(run.j) * level_grid(terrain.shape, extent.level).columns + run.i;
+}
+
+// The heights of a whole terrain; those who only look at them take care not to write.
+HeightGrid grid_of(const Terrain& terrain) {
+    return {const_cast<int32_t*>(terrain.heights.data()), terrain.shape.width, 0, 0, 0};
 }
 
 uint32_t zigzag(int32_t value) {
@@ -259,7 +180,7 @@ std::vector<std::byte> pack_block(const Terrain& terrain, const Block& block) {
     residuals.reserve(counts.samples);
     uint64_t sample = 0;
     uint32_t all_bits = 0;
-    visit_samples(terrain, block, [&](size_t index, int32_t prediction) {
+    visit_samples(terrain.shape, grid_of(terrain), block, [&](size_t index, int32_t prediction) {
         int32_t height = terrain.heights[index];
         if (height == kVoid) {
             void_bits[sample / 8] |= std::byte(1u << (sample % 8));
@@ -277,12 +198,24 @@ std::vector<std::byte> pack_block(const Terrain& terrain, const Block& block) {
     if (has_voids) bytes.insert(bytes.end(), void_bits.begin(), void_bits.end());
     for (uint32_t plane = 0; plane < planes; ++plane)
         for (uint32_t residual : residuals) bytes.push_back(std::byte(residual >> (8 * plane) & 255));
-    visit_codes(terrain, block, [&](uint8_t code) { bytes.push_back(std::byte(code)); });
+    for (const Extent& extent : extents_of(terrain.shape, block))
+        visit_runs(extent, [&](Run run) {
+            const uint8_t* code = codes_of(terrain, extent, run);
+            for (uint32_t i = run.i; i < run.i_end; i += 2, code += 2) bytes.push_back(std::byte(*code));
+        });
     return bytes;
 }
 
 const char* unpack_block(std::span<const std::byte> bytes, const Block& block, Terrain& terrain) {
-    Counts counts = counts_of(terrain.shape, block);
+    auto code_row = [&](const Extent& extent, Run run) {
+        return CodeRow{const_cast<uint8_t*>(codes_of(terrain, extent, run)), 2};
+    };
+    return unpack_block(bytes, block, terrain.shape, grid_of(terrain), code_row);
+}
+
+const char* unpack_block(std::span<const std::byte> bytes, const Block& block, const Shape& shape, const HeightGrid& grid,
+                         const std::function<CodeRow(const Extent&, Run)>& code_row) {
+    Counts counts = counts_of(shape, block);
     if (bytes.size() < kHeadBytes) return "is shorter than its head";
     uint32_t planes = uint32_t(bytes[0]);
     if (planes < 1 || planes > 4) return "has a count of height planes outside 1..4";
@@ -309,18 +242,23 @@ const char* unpack_block(std::span<const std::byte> bytes, const Block& block, T
     uint64_t sample = 0;
     const uint32_t* residual = residuals.data();
     bool in_range = true;
-    visit_samples(terrain, block, [&](size_t index, int32_t prediction) {
+    visit_samples(shape, grid, block, [&](size_t index, int32_t prediction) {
         uint64_t k = sample++;
         if (has_voids && (uint8_t(void_bits[k / 8]) >> (k % 8) & 1) != 0) {
-            terrain.heights[index] = kVoid;
+            grid.heights[index] = kVoid;
             return;
         }
         int64_t height = int64_t(prediction) + unzigzag(*residual++);
         if (height > kHeightMax || height < -kHeightMax) in_range = false, height = 0;
-        terrain.heights[index] = int32_t(height);
+        grid.heights[index] = int32_t(height);
     });
     const std::byte* code = bytes.data() + kHeadBytes + void_bytes + planes * valid_count;
-    visit_codes(terrain, block, [&](uint8_t& stored) { stored = uint8_t(*code++); });
+    for (const Extent& extent : extents_of(shape, block))
+        visit_runs(extent, [&](Run run) {
+            if (run.i >= run.i_end) return;
+            CodeRow row = code_row(extent, run);
+            for (uint32_t i = run.i; i < run.i_end; i += 2, row.code += row.step) *row.code = uint8_t(*code++);
+        });
     return in_range ? nullptr : "has a height beyond 2^28 steps";
 }
 

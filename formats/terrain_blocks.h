@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,27 @@ std::vector<std::byte> pack_block(const Terrain& terrain, const Block& block);
 // The reverse, into `terrain`, whose coarser blocks are unpacked already; the bytes may be hostile. Returns null, or what is
 // wrong.
 const char* unpack_block(std::span<const std::byte> bytes, const Block& block, Terrain& terrain);
+
+// A grid of heights to unpack into: of every 2^log2-th vertex from (x, y) on, in rows of `stride`.
+struct HeightGrid {
+    int32_t* heights = nullptr;
+    size_t stride = 0;
+    uint32_t x = 0, y = 0, log2 = 0;
+
+    size_t index(uint32_t at_x, uint32_t at_y) const { return size_t((at_y - y) >> log2) * stride + ((at_x - x) >> log2); }
+};
+// Where the codes of a run go: the first, and from one to the next.
+struct CodeRow {
+    uint8_t* code = nullptr;
+    ptrdiff_t step = 1;
+};
+struct Extent;
+struct Run;
+
+// The same into a part of a terrain: the grid holds the vertices of coarser blocks that this one's predictions ask for, and has
+// places for its own (terrain_tiles.h).
+const char* unpack_block(std::span<const std::byte> bytes, const Block& block, const Shape& shape, const HeightGrid& grid,
+                         const std::function<CodeRow(const Extent&, Run)>& code_row);
 
 // The greatest size pack_block can give.
 uint64_t packed_bytes_max(const Shape& shape, const Block& block);

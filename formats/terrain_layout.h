@@ -16,6 +16,8 @@ constexpr container::Tag kInfoTag = container::tag("TINF");
 constexpr container::Tag kDirectoryTag = container::tag("TDIR");
 constexpr container::Tag kBlocksTag = container::tag("TBLK");
 constexpr container::Tag kTextureTag = container::tag("TTEX");
+constexpr container::Tag kTilesTag = container::tag("TTIL");
+constexpr container::Tag kTileDirectoryTag = container::tag("TTLD");
 
 // Offsets within TINF, in bytes.
 namespace info_at {
@@ -31,6 +33,12 @@ constexpr uint32_t kIsGeoreferenced = 1;
 namespace directory_at {
 constexpr size_t offset = 0, stored_bytes = 8, raw_bytes = 12, checksum = 16, low = 24, high = 28, entry_bytes = 32;
 }
+
+// Offsets within TTLD, in bytes: its head, then within an entry.
+namespace tiles_at {
+constexpr size_t height_sum = 0, reserved = 8, head_bytes = 16;
+constexpr size_t offset = 0, checksum = 8, stored_bytes = 16, raw_bytes = 20, entry_bytes = 24;
+}  // namespace tiles_at
 
 // TTEX: width and height (u32), then [height, width, 3] bytes.
 constexpr size_t kTextureHeadBytes = 8;

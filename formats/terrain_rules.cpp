@@ -5,7 +5,7 @@
 namespace overlook::terrain {
 namespace {
 
-constexpr std::array<std::string_view, 17> kRules{
+constexpr std::array<std::string_view, 20> kRules{
     "The file's kind is TERR and it has the sections TINF, TDIR and TBLK.",
     "TINF is 1,152 bytes long.",
     "Width and height are at least 2 and their product is at most 2^31.",
@@ -24,6 +24,10 @@ constexpr std::array<std::string_view, 17> kRules{
     "A diamond of level 0 that covers a void has code 255.",
     "The number of voids is that stated.",
     "The texture has 1 to 32,768 pixels a side and three bytes for each.",
+    "TTIL and TTLD, uncompressed, are both there or neither; TTLD has one entry of 24 bytes for each block, and TTIL is its "
+    "tiles.",
+    "A tile's bytes match their checksum and decode to what its squares and its vertices beyond the raster need.",
+    "What tiles say of squares, of the raster's edge and of the heights' sum is what the heights say.",
 };
 
 }  // namespace

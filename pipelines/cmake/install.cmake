@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(OVERLOOK_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/overlook)
 set(OVERLOOK_HAS_DRAWING OFF)
-foreach(library formats view terrain_refine caveclod_refine command gl terrain_draw caveclod_draw)
+foreach(library formats view stream terrain_refine caveclod_refine command gl terrain_draw caveclod_draw)
   if(NOT TARGET ${library})
     continue()
   endif()

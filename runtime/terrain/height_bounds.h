@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/terrain.h"
+#include "formats/terrain_ranges.h"
 
 namespace overlook::terrain {
 
@@ -12,6 +13,9 @@ struct HeightRange {
     float low_m, high_m;  // low > high: no valid sample
     bool is_empty() const { return low_m > high_m; }
 };
+
+// The least range of floats, in metres, that holds it: nested ranges stay nested.
+HeightRange height_range_of(const Terrain& terrain, StepRange range);
 
 // One grid a level; the range of the 3 x 3 squares of side 2^(level+1) round a square is that of all samples within 3 * 2^level
 // of its middle, borders included: it contains everything that splitting in that square can bring up, at any depth.

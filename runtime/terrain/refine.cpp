@@ -8,12 +8,12 @@
 #include "formats/parallel.h"
 #include "formats/terrain_diamond.h"
 #include "runtime/terrain/height_bounds.h"
+#include "runtime/terrain/refine_parts.h"
 #include "runtime/terrain/screen_test.h"
 
 namespace overlook::terrain {
 namespace {
 
-constexpr size_t kPartsWanted = 256;
 constexpr size_t kSlicesWanted = 4096, kPiecesAtATime = 8;
 
 // A triangle on its way down: `level` and `is_square` tell the diamond that it would be split in; level -1 is the finest.
@@ -139,47 +139,6 @@ std::vector<Piece> root_pieces(const Shape& shape, uint8_t planes) {
             pieces.push_back({main ? Triangle{sw, se, nw} : Triangle{se, ne, sw}, level, true, false, planes, {0, 0, 0}});
         }
     return pieces;
-}
-
-void start(Cut::Part& part) {
-    part.indices.clear(), part.morphs.clear(), part.codes.clear();
-    part.void_rim_triangle_count = part.tested_count = 0;
-    part.predicted_squared = 0;
-}
-
-// Where each part's share begins in the whole.
-struct Begins {
-    std::vector<size_t> indices{0}, morphs{0};
-};
-
-// The first so many parts one after the other.
-void join(size_t part_count, size_t sample_count, Cut& out) {
-    Begins begins;
-    out.void_rim_triangle_count = out.tested_count = 0;
-    double predicted_squared = 0;
-    for (size_t i = 0; i < part_count; ++i) {
-        const Cut::Part& part = out.parts[i];
-        begins.indices.push_back(begins.indices.back() + part.indices.size());
-        begins.morphs.push_back(begins.morphs.back() + part.morphs.size());
-        out.void_rim_triangle_count += part.void_rim_triangle_count;
-        out.tested_count += part.tested_count;
-        predicted_squared = std::max(predicted_squared, part.predicted_squared);
-    }
-    out.predicted_error_px = std::sqrt(predicted_squared);
-    out.indices.resize(begins.indices.back());
-    out.morphs.resize(begins.morphs.back());
-    out.codes.resize(out.wants_codes ? begins.indices.back() / 3 : 0);
-    parallel_ranges(part_count, 16, [&](size_t first, size_t end) {
-        for (size_t i = first; i < end; ++i) {
-            const Cut::Part& part = out.parts[i];
-            uint32_t* index = out.indices.data() + begins.indices[i];
-            uint32_t morph_base = uint32_t(sample_count + begins.morphs[i]);
-            for (uint32_t local : part.indices)
-                *index++ = (local & Cut::kMorphBit) != 0 ? morph_base + (local & ~Cut::kMorphBit) : local;
-            std::copy(part.morphs.begin(), part.morphs.end(), out.morphs.begin() + ptrdiff_t(begins.morphs[i]));
-            std::copy(part.codes.begin(), part.codes.end(), out.codes.begin() + ptrdiff_t(begins.indices[i] / 3));
-        }
-    });
 }
 
 // Goes down from the roots far enough to leave at least parts_wanted pieces, if nothing were left out; what ends above goes to

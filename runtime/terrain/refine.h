@@ -28,6 +28,7 @@ struct Cut {
     bool wants_codes = false;
     uint64_t void_rim_triangle_count = 0;  // of them, those whose parent was split only because it covers a void
     uint64_t tested_count = 0;             // split vertices looked at
+    uint64_t stopped_count = 0;            // triangles left coarser than asked, because their tiles are not there (TileRefiner)
     double predicted_error_px = 0;         // the greatest bound over the triangles drawn (0 for a cut in metres)
 
     uint64_t triangle_count() const { return indices.size() / 3; }
@@ -36,7 +37,7 @@ struct Cut {
         std::vector<uint32_t> indices;  // with kMorphBit: the place in this part's own morphs
         std::vector<Morph> morphs;
         std::vector<uint8_t> codes;
-        uint64_t void_rim_triangle_count = 0, tested_count = 0;
+        uint64_t void_rim_triangle_count = 0, tested_count = 0, stopped_count = 0;
         double predicted_squared = 0;
     };
     std::vector<Part> parts;  // scratch, kept from frame to frame

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "runtime/terrain/tiles.h"
+
 namespace overlook::terrain {
 namespace {
 // What the arithmetic of the bound may round away, many times over.
@@ -16,7 +18,9 @@ std::array<glm::dvec3, 4> sides_of(const view::Camera& camera) {
 }
 }  // namespace
 
-ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, const PixelDetail& detail)
+template <class Bounds>
+BasicScreenTest<Bounds>::BasicScreenTest(const Terrain& terrain, const Bounds& bounds, const view::Camera& camera,
+                                         const PixelDetail& detail)
     : bounds_(bounds),
       last_column_(terrain.shape.width - 1),
       last_row_(terrain.shape.height - 1),
@@ -55,5 +59,8 @@ ScreenTest::ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const
     for (int code = 0; code < 256; ++code) error_m_[code] = double(terrain.error_m[size_t(code)]) * kRoundingAllowance;
     finest_error_is_zero_ = terrain.error_m[0] == 0;
 }
+
+template class BasicScreenTest<HeightBounds>;
+template class BasicScreenTest<TileBounds>;
 
 }  // namespace overlook::terrain

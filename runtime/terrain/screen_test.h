@@ -32,12 +32,14 @@ struct Box {
 
 // One camera and one tolerance against one terrain. The box of a split vertex reaches 3s round the middle of a square and 2s
 // round that of an edge (s = 2^level cells): so it holds its own diamond and the boxes of all that it splits into, and every
-// figure taken from it by interval arithmetic can only get milder on the way down.
-class ScreenTest {
+// figure taken from it by interval arithmetic can only get milder on the way down. Bounds: HeightBounds, or TileBounds, of which
+// the terrain needs no heights.
+template <class Bounds>
+class BasicScreenTest {
   public:
     static constexpr uint8_t kAllPlanes = 31;  // left, right, bottom, top, near
 
-    ScreenTest(const Terrain& terrain, const HeightBounds& bounds, const view::Camera& camera, const PixelDetail& detail);
+    BasicScreenTest(const Terrain& terrain, const Bounds& bounds, const view::Camera& camera, const PixelDetail& detail);
 
     // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared
     // (px^2) to the bound of what is kept.
@@ -50,7 +52,7 @@ class ScreenTest {
         if (!must_split && code == 0 && finest_error_is_zero_) return {Verdict::keep};
         double share = 1;
         if (!must_split) {
-            Bound bound = bound_of(box, error_m_[code]);
+            PixelBound bound = bound_of(box, error_m_[code]);
             // A box holds those of what it splits into: none of them is near or unseen where it is not.
             const Limits& limits = is_near_enough(box, bound) ? near_ : far_;
             if (bound.is_within(limits.full_squared)) {
@@ -62,6 +64,15 @@ class ScreenTest {
         // What an edge of level 0 splits into is the finest there is, whatever was asked.
         if (level == 0 && !is_square && !finest_error_is_zero_) keep_greatest(predicted_squared, bound_of(box, error_m_[0]));
         return {Verdict::split, std::clamp(share, 0.0, 1.0)};
+    }
+
+    // The bound of leaving it unsplit, px^2.
+    double bound_squared(GridPoint v, uint32_t level, bool is_square, uint8_t code) const {
+        Box box;
+        if (!box_of(v, level, is_square, box)) return 0;
+        double squared = 0;
+        keep_greatest(squared, bound_of(box, error_m_[code]));
+        return squared;
     }
 
   private:
@@ -114,12 +125,12 @@ class ScreenTest {
 
     // view::error_px_bound_vertical over the box's part in the frame, squared, as a fraction so as to need neither root nor
     // division.
-    struct Bound {
+    struct PixelBound {
         double numerator, denominator;
         double depth_m;  // the least
         bool is_within(double limit_squared) const { return numerator <= limit_squared * denominator; }
     };
-    Bound bound_of(const Box& box, double error_m) const {
+    PixelBound bound_of(const Box& box, double error_m) const {
         double depth = std::max(forward_.least(box), near_m_);
         auto outside = [](Interval i) { return std::max(std::max(i.low, -i.high), 0.0); };
         double dx = outside(box.x), dy = outside(box.y), dz = outside(box.z), distance_squared = dx * dx + dy * dy + dz * dz;
@@ -137,7 +148,7 @@ class ScreenTest {
         return {focal_squared_ * error_m * error_m * lever_squared, depth_squared * depth_after * depth_after, depth};
     }
     // Asked last what costs most, and only where it changes anything.
-    bool is_near_enough(const Box& box, const Bound& bound) const {
+    bool is_near_enough(const Box& box, const PixelBound& bound) const {
         if (bound.depth_m < near_depth_m_ || !is_wholly_seen(box)) return true;
         return has_finer_part_ && !bound.is_within(near_.enter_squared) && touches_finer_part(box);
     }
@@ -152,7 +163,7 @@ class ScreenTest {
             0.5 - share_per_tangent_y_ * greatest(up_.greatest(box)), 0.5 - share_per_tangent_y_ * least(up_.least(box)));
     }
 
-    static void keep_greatest(double& predicted_squared, const Bound& bound) {
+    static void keep_greatest(double& predicted_squared, const PixelBound& bound) {
         if (bound.numerator > predicted_squared * bound.denominator) predicted_squared = bound.numerator / bound.denominator;
     }
 
@@ -165,7 +176,7 @@ class ScreenTest {
 
     static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-    const HeightBounds& bounds_;
+    const Bounds& bounds_;
     std::vector<double> column_x_, row_y_;  // of every raster column and row, relative to the eye
     uint32_t last_column_, last_row_;
     double eye_z_;
@@ -194,5 +205,7 @@ class ScreenTest {
     double error_m_[256];
     bool finest_error_is_zero_;
 };
+
+using ScreenTest = BasicScreenTest<HeightBounds>;
 
 }  // namespace overlook::terrain

@@ -109,6 +109,35 @@ Bytes with_texture_that_states(uint64_t raw_bytes) {
         RawSection{"TDIR", 1, 0, parts.directory, parts.directory.size()}, RawSection{"TTEX", 0, 1, frame, raw_bytes}});
 }
 
+// The hill with its one tile: one square, low 100 and 11 steps from there on, each as a folded step from the number before.
+constexpr uint64_t kHillSum = 942;
+const Bytes kHillTile{std::byte(0xc8), std::byte(0xb1), {}, {}, {}, {}, {}, {}};
+Bytes with_tile(
+    const Bytes& raw, uint64_t height_sum = kHillSum, const std::function<void(Parts&)>& change = [](Parts&) {}) {
+    return changed(hill(), [&](Parts& parts) { parts.lay_out_tile(raw, height_sum), change(parts); });
+}
+template <class T>
+Bytes with_tile_entry(size_t at, T value) {
+    return with_tile(kHillTile, kHillSum, [&](Parts& parts) { store_le<T>(parts.tile_directory, at, value); });
+}
+
+std::vector<Fixture> broken_tiles() {
+    Bytes longer = kHillTile, other = kHillTile;
+    longer.push_back(std::byte(0)), other[1] = std::byte(0xb3);
+    return {{"t18_no_directory.ovl", 18, with_tile(kHillTile, 0, [](Parts& parts) { parts.tile_directory.clear(); })},
+            {"t18_no_tiles.ovl", 18, with_tile(kHillTile, 0, [](Parts& parts) { parts.tiles.clear(); })},
+            {"t18_byte_less.ovl", 18, with_tile(kHillTile, 0, [](Parts& parts) { parts.tile_directory.pop_back(); })},
+            {"t18_reserved.ovl", 18, with_tile_entry<uint64_t>(8, 1)},
+            {"t18_begins_late.ovl", 18, with_tile_entry<uint64_t>(16, 1)},
+            {"t18_most_bytes.ovl", 18, with_tile_entry<uint32_t>(32, ~0u)},
+            {"t18_bytes_after.ovl", 18, with_tile(kHillTile, 0, [](Parts& parts) { parts.tiles.push_back({}); })},
+            {"t19_checksum.ovl", 19, with_tile_entry<uint64_t>(24, 0)},
+            {"t19_states_most.ovl", 19, with_tile_entry<uint32_t>(36, ~0u)},
+            {"t19_byte_more.ovl", 19, with_tile(longer)},
+            {"t20_sum.ovl", 20, with_tile(kHillTile, kHillSum + 1)},
+            {"t20_high.ovl", 20, with_tile(other)}};
+}
+
 std::vector<Fixture> broken_heads() {
     std::string too_high(1, '\x7f');
     return {{"t01_other_kind.ovl", 1, of_other_kind()},
@@ -271,6 +300,7 @@ std::vector<Fixture> whole_files() {
     for (auto& level : flat.codes) std::fill(level.begin(), level.end(), uint8_t(0));
     return {{"hill.ovl", 0, file_of(hill())},
             {"hill_with_texture.ovl", 0, file_of(textured_hill())},
+            {"hill_with_tile.ovl", 0, with_tile(kHillTile)},
             {"hill_with_hole.ovl", 0, file_of(hill_with_hole())},
             {"smallest.ovl", 0, file_of(synthetic_terrain(2, 2, no_void))},
             {"two_blocks.ovl", 0, file_of(strip())},
@@ -282,7 +312,7 @@ std::vector<Fixture> whole_files() {
 
 std::vector<Fixture> corrupt_files() {
     std::vector<Fixture> all = broken_heads();
-    for (auto make : {broken_directories, broken_blocks, broken_promises}) {
+    for (auto make : {broken_directories, broken_blocks, broken_promises, broken_tiles}) {
         std::vector<Fixture> more = make();
         all.insert(all.end(), more.begin(), more.end());
     }

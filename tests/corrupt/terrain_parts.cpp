@@ -77,6 +77,14 @@ void Parts::lay_out(std::span<const Piece> pieces) {
     }
 }
 
+void Parts::lay_out_tile(const Bytes& raw, uint64_t height_sum) {
+    tiles = frame_of(raw);
+    tile_directory.assign(16 + 24, std::byte(0));
+    store_le<uint64_t>(tile_directory, 0, height_sum);
+    store_le<uint64_t>(tile_directory, 24, block_checksum(tiles));
+    put_u32(tile_directory, 32, uint32_t(tiles.size())), put_u32(tile_directory, 36, uint32_t(raw.size()));
+}
+
 Parts Parts::of(const Terrain& terrain) {
     Parts parts;
     parts.info = info_of(terrain);
@@ -106,6 +114,8 @@ Bytes Parts::file() const {
                                      section("TBLK", blocks_codec == 0 ? 3 : 1, blocks_codec, blocks),
                                      section("TDIR", 1, directory_codec, directory)};
     if (!texture.empty()) sections.push_back(section("TTEX", 0, 1, texture));
+    if (!tiles.empty()) sections.push_back(section("TTIL", 2, 0, tiles));
+    if (!tile_directory.empty()) sections.push_back(section("TTLD", 0, 0, tile_directory));
     return terrain_file_of(sections);
 }
 

@@ -19,11 +19,14 @@ Piece piece_of(const Bytes& raw, BlockRange range);
 
 struct Parts {
     Bytes info, directory, blocks, texture;
+    Bytes tiles, tile_directory;                     // both empty: the file has no tiles
     uint32_t directory_codec = 0, blocks_codec = 0;  // with another than 0 those bytes go into a frame
 
     static Parts of(const Terrain& terrain);
     // Directory and blocks anew.
     void lay_out(std::span<const Piece> pieces);
+    // One tile of these raw bytes, as its entry states it.
+    void lay_out_tile(const Bytes& raw, uint64_t height_sum);
     // The file; has no section TTEX if the texture is empty.
     Bytes file() const;
 };
