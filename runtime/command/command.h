@@ -27,6 +27,9 @@ constexpr Uses operator|(Uses a, Uses b) {
     return Uses(int(a) | int(b));
 }
 
+// An option of bytes: digits, or with K, M, G, T (powers of 1024).
+CLI::Option* add_bytes_option(CLI::App& app, const std::string& name, uint64_t& bytes, const std::string& help);
+
 // Adds --threads, --json, --quiet, --verbose, --progress, --config (and --seed, --memory where used) to a command.
 void add_common(CLI::App& app, Common& common, Uses uses = Uses::none);
 

@@ -119,6 +119,15 @@ CLI::Validator number_in(double least, double most) {
     return CLI::Validator(refusal, fmt::format("{:g}..{:g}", least, most), "number_in");
 }
 
+CLI::Option* add_bytes_option(CLI::App& app, const std::string& name, uint64_t& bytes, const std::string& help) {
+    auto take = [&bytes, name](const std::string& text) {
+        std::optional<uint64_t> read = bytes_from_text(text);
+        if (!read) throw CLI::ValidationError(name, text + " is not a size such as 2000000, 512M or 4G");
+        bytes = *read;
+    };
+    return app.add_option_function<std::string>(name, take, help)->type_name("BYTES");
+}
+
 void add_common(CLI::App& app, Common& common, Uses uses) {
     constexpr unsigned kMostThreads = 4096;
     const char* const group = "Common options";
@@ -126,15 +135,7 @@ void add_common(CLI::App& app, Common& common, Uses uses) {
         ->check(CLI::Range(0u, kMostThreads))
         ->group(group);
     if (has(uses, Uses::memory)) {
-        app.add_option_function<std::string>(
-               "--memory",
-               [&common](const std::string& text) {
-                   std::optional<uint64_t> bytes = bytes_from_text(text);
-                   if (!bytes) throw CLI::ValidationError("--memory", text + " is not a size such as 2000000, 512M or 4G");
-                   common.memory_bytes = *bytes;
-               },
-               "Most memory to use: bytes, or with K, M, G, T; 0 = no cap")
-            ->type_name("BYTES")
+        add_bytes_option(app, "--memory", common.memory_bytes, "Most memory to use: bytes, or with K, M, G, T; 0 = no cap")
             ->group(group);
     }
     if (has(uses, Uses::seed)) {

@@ -25,15 +25,21 @@ double mean_height_m(const terrain::Terrain& terrain, double otherwise_m) {
 }  // namespace
 
 view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double highest_m, uint32_t width_px, uint32_t height_px) {
+    auto ground = [&](double x_m, double y_m) { return ground_m(terrain, x_m, y_m); };
+    return overview(terrain, mean_height_m(terrain, lowest_m), highest_m, ground, width_px, height_px);
+}
+
+view::Camera overview(const terrain::Terrain& head, double mean_m, double highest_m,
+                      const std::function<std::optional<double>(double x_m, double y_m)>& ground_at, uint32_t width_px,
+                      uint32_t height_px) {
     view::Camera camera;
     camera.width_px = width_px;
     camera.height_px = height_px;
     camera.fov_y_deg = 42;
 
-    double width_m = terrain.frame.metres_per_column * (terrain.shape.width - 1);
-    double depth_m = terrain.frame.metres_per_row * (terrain.shape.height - 1);
+    double width_m = head.frame.metres_per_column * (head.shape.width - 1);
+    double depth_m = head.frame.metres_per_row * (head.shape.height - 1);
     double diagonal_m = std::hypot(width_m, depth_m);
-    double mean_m = mean_height_m(terrain, lowest_m);
 
     // Half-way between the corner's bisector and the way to the middle; the corner's own edges stay out of sight.
     double to_middle_deg = degrees(std::atan2(width_m, depth_m));
@@ -41,7 +47,7 @@ view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double h
     camera.position_m = {width_m * 0.97, -depth_m * 0.97, 0};
     double above_mean_m = std::max(0.055 * diagonal_m, 0.8 * (highest_m - mean_m));
     camera.position_m.z = mean_m + above_mean_m;
-    std::optional<double> ground = ground_m(terrain, camera.position_m.x, camera.position_m.y);
+    std::optional<double> ground = ground_at(camera.position_m.x, camera.position_m.y);
     if (ground) camera.position_m.z = std::max(camera.position_m.z, *ground + 0.03 * diagonal_m);
 
     double half_tangent = std::tan(camera.fov_y_deg / 2 * std::numbers::pi / 180);

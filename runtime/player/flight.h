@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "formats/terrain.h"
@@ -13,6 +14,10 @@ namespace overlook::player {
 // A view over the whole terrain from above one of its southern corners, the horizon in the upper third.
 // lowest_m, highest_m: range of its heights.
 view::Camera overview(const terrain::Terrain& terrain, double lowest_m, double highest_m, uint32_t width_px, uint32_t height_px);
+// The same of one of which only the head is known, with the mean of its heights, the greatest, and its ground at x, y.
+view::Camera overview(const terrain::Terrain& head, double mean_m, double highest_m,
+                      const std::function<std::optional<double>(double x_m, double y_m)>& ground, uint32_t width_px,
+                      uint32_t height_px);
 
 // Height of the ground at x, y: the highest of the four samples round about; none beyond the raster or where one is void.
 std::optional<double> ground_m(const terrain::Terrain& terrain, double x_m, double y_m);

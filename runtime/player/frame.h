@@ -3,13 +3,23 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "runtime/caveclod/draw_frames.h"
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/player/method.h"
+#include "runtime/stream/stream.h"
 #include "runtime/terrain/draw.h"
 
 namespace overlook::player {
+
+// Of a frame of what is streamed.
+struct StreamRecord {
+    stream::Counts counts;
+    uint64_t budget_bytes = 0;
+    uint64_t stopped_count = 0;  // triangles coarser than asked, because what is finer is not there
+    std::vector<Error> faults;   // of blocks that cannot be read, each once
+};
 
 // What one frame was and what it cost.
 struct FrameRecord {
@@ -24,6 +34,7 @@ struct FrameRecord {
     // Of a frame by LOD-sprite, whose predicted error is the p99 over the pixels.
     std::optional<lod_sprite::FrameCounts> sprite;
     std::optional<caveclod::FrameCounts> mesh;  // of a mesh that is refined
+    std::optional<StreamRecord> stream;
 };
 
 // How a frame is to be drawn.

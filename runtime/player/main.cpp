@@ -9,10 +9,21 @@
 namespace overlook::player {
 namespace {
 
+// What is streamed, if anything: without a window every picture waits for it.
+std::optional<stream::Settings> stream_settings(const Options& options, bool has_window) {
+    if (options.stream_memory_bytes == 0) return std::nullopt;
+    stream::Settings settings;
+    settings.residency_budget_bytes = options.stream_memory_bytes;
+    settings.upload_budget_bytes = options.upload_budget_bytes;
+    if (!has_window) settings.latency_frames = 1;
+    return settings;
+}
+
 int play(const Options& options, const command::Common& common) {
     Result<Plan> plan = plan_from(options);
     if (!plan) return command::fail("player", plan.error());
-    Result<Scene> scene = Scene::read(options.file);
+    bool has_window = !options.headless && (options.image.empty() || has_display());
+    Result<Scene> scene = Scene::read(options.file, stream_settings(options, has_window));
     if (!scene) return command::fail("player", scene.error());
 
     Method method = plan->method.value_or(scene->method());
@@ -20,13 +31,10 @@ int play(const Options& options, const command::Common& common) {
     if (fit) fit = check_fit(options, method);
     if (!fit) return command::fail("player", fit.error());
 
-    bool is_headless = options.headless;
-    if (!is_headless && !options.image.empty() && !has_display()) {
+    if (!has_window && !options.headless)
         command::note(common, "player: there is no display; drawing the picture without a window");
-        is_headless = true;
-    }
     Result<void> played =
-        is_headless ? run_headless(*plan, common, std::move(*scene)) : run_in_window(*plan, common, std::move(*scene));
+        has_window ? run_in_window(*plan, common, std::move(*scene)) : run_headless(*plan, common, std::move(*scene));
     return played ? int(Exit::done) : command::fail("player", played.error());
 }
 

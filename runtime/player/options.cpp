@@ -35,6 +35,9 @@ Result<void> check_numbers(const Options& options) {
         return bad_command("--samples {}: 1, 2, 4 or 8 samples a pixel are wanted (0 = chosen)", options.samples);
     }
     if (options.frames > kMostFrames) return bad_command("--frames {}: at most {} are wanted", options.frames, kMostFrames);
+    if (options.sets_upload_budget && options.stream_memory_bytes == 0) {
+        return bad_command("--upload-budget: is of what is streamed; give --stream-memory as well");
+    }
     if (!options.flight.empty() && !options.cameras.empty()) return bad_command("--flight and --camera exclude each other");
     if (options.wireframe && options.split_picture) {
         return bad_command("--wireframe and --split-picture exclude each other");
@@ -71,6 +74,7 @@ Result<void> check_fit(const Options& options, Method method) {
     const Rule kRules[] = {{"--triangles", options.triangles > 0, takes_budgets(method)},
                            {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
                            {"--morph", options.sets_morph, is_terrain},
+                           {"--stream-memory", options.stream_memory_bytes > 0, is_terrain},
                            {"--wireframe", options.wireframe, is_triangles},
                            {"--split-picture", options.split_picture, is_terrain},
                            {"--haze", options.sets_haze, !draws_meshes(method)}};
@@ -98,7 +102,9 @@ void choose_samples(Plan& plan, bool is_software, bool is_window) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("file", options.file, "A baked terrain or mesh, or a scene of one")->required()->type_name("FILE.ovl|SCENE.json");
+    app.add_option("file", options.file, "A baked terrain or mesh, or a scene of one")
+        ->required()
+        ->type_name("FILE.ovl|SCENE.json");
     app.add_flag("--headless", options.headless, "Draw without a window");
     app.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH")->capture_default_str();
     app.add_option("--camera", options.cameras,
@@ -140,6 +146,13 @@ void add_options(CLI::App& app, Options& options) {
         ->each([&options](const std::string&) { options.sets_haze = true; });
     app.add_option("--samples", options.samples,
                    "Samples a pixel: 1 (fast), 2, 4 or 8 (smooth); default 4, or 1 in a window drawn by software");
+    command::add_bytes_option(
+        app, "--stream-memory", options.stream_memory_bytes,
+        "Keep at most so much of the terrain in memory and read the rest as it is needed: bytes, or with K, M, "
+        "G; of a file baked with --streamed. Where it is too little the picture is coarser, and says so");
+    command::add_bytes_option(app, "--upload-budget", options.upload_budget_bytes,
+                              "Of what is streamed, take over at most so much in a frame; default 16M")
+        ->each([&options](const std::string&) { options.sets_upload_budget = true; });
     app.add_option("--report", options.report, "Write counts, times and predicted errors of every frame")->type_name("FILE.json");
 }
 

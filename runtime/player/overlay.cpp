@@ -24,6 +24,13 @@ void method_lines(const OverlayText& text) {
                               mesh.is_settled ? "" : "; more to come"));
         if (mesh.wrong_corner_count > 0) text_line(fmt::format("       {} wrong corners", mesh.wrong_corner_count));
     }
+    if (text.frame->stream) {
+        const StreamRecord& stream = *text.frame->stream;
+        text_line(fmt::format("stream {} of {} there, {} tiles asked for, {} without room",
+                              megabytes(stream.counts.resident_bytes), megabytes(stream.budget_bytes), stream.counts.asked_count,
+                              stream.counts.refused_count));
+        if (stream.stopped_count > 0) text_line(fmt::format("       {} triangles coarser than asked", stream.stopped_count));
+    }
     if (!text.frame->sprite) return;
     const lod_sprite::FrameCounts& sprite = *text.frame->sprite;
     std::string last = text.keys.cause == lod_sprite::Cause::none

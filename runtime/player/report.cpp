@@ -47,6 +47,14 @@ Json frame_json(const FrameRecord& frame) {
         json["camera_bytes"] = frame.mesh->camera_bytes;
         json["settled"] = frame.mesh->is_settled;
     }
+    if (frame.stream) {
+        json["resident_bytes"] = frame.stream->counts.resident_bytes;
+        json["streamed_bytes"] = frame.stream->counts.uploaded_bytes;
+        json["asked_tiles"] = frame.stream->counts.asked_count;
+        json["refused_tiles"] = frame.stream->counts.refused_count;
+        json["dropped_tiles"] = frame.stream->counts.dropped_count;
+        json["stopped_triangles"] = frame.stream->stopped_count;
+    }
     if (!frame.sprite) return json;
     const lod_sprite::FrameCounts& sprite = *frame.sprite;
     json["key_triangles"] = sprite.key_triangle_count;

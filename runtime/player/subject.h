@@ -12,6 +12,7 @@
 #include "runtime/gl/target.h"
 #include "runtime/player/controls.h"
 #include "runtime/player/frame.h"
+#include "runtime/stream/stream.h"
 
 namespace overlook::player {
 
@@ -25,6 +26,7 @@ class Subject : public Ground {
     // A view over the whole of it.
     virtual view::Camera overview(uint32_t width_px, uint32_t height_px) const = 0;
     virtual double near_m() const = 0;
+    virtual bool has_one_method() const { return false; }
 
     // A method that was not drawn with in the frame before begins anew. Fails as lod_sprite::FrameDrawer.
     virtual Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) = 0;
@@ -33,5 +35,8 @@ class Subject : public Ground {
 // layer: its settings. Fail as terrain::read and caveclod::read, and with Exit::impossible as caveclod::Mesh::make.
 Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer);
 Result<std::unique_ptr<Subject>> read_mesh(const container::Reader& file, const LayerMethod& layer);
+// A terrain in parts, drawn by its triangles. With latency_frames every picture waits for what memory has room for, and a block
+// that cannot be read ends the drawing with its error. Fails as terrain::Tiles::open.
+Result<std::unique_ptr<Subject>> read_streamed_terrain(container::Reader file, const stream::Settings& settings);
 
 }  // namespace overlook::player

@@ -252,6 +252,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         glfwPollEvents();
         double now_s = glfwGetTime();
         Input input = read_input(window, events, flight);
+        if (scene.subject().has_one_method()) events.presses.method = 0;
         press(flight.style, events.presses);
         if (events.toggle_overlay) flight.shows_overlay = !flight.shows_overlay;
         if (frame_count > 0 && plan.flight.keys.size() > 1)
@@ -275,6 +276,9 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         if (!record) return tl::unexpected(record.error());
         if (takes_budgets(flight.style.method)) controller.frame_done(cost_of(plan.options, *record));
         watch(flight.keys, *record);
+        if (record->stream) {
+            for (const Error& fault : record->stream->faults) command::note(common, "player: " + fault.message);
+        }
         show(window, *target, flight, *record, renderer, overlay);
         if (events.take_picture) {
             if (Result<void> taken = take_picture(*target, common, flight); !taken) return taken;

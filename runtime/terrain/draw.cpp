@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/terrain/draw_shaders.h"
@@ -13,30 +14,37 @@
 namespace overlook::terrain {
 namespace {
 
+// Lowest and highest height; empty if all are void.
+StepRange range_of(const Terrain& terrain) {
+    StepRange range;
+    for (int32_t height : terrain.heights) {
+        if (height != kVoid) range = {std::min(range.low, height), std::max(range.high, height)};
+    }
+    return range;
+}
+
 // Heights above the middle of their range, so that a float holds them to a ten-millionth of the range.
-struct HeightsAboveBase {
-    double base_m = 0, lowest_m = 0, highest_m = 0;
-    std::vector<float> samples;
-};
+std::vector<float> above_base(std::span<const int32_t> heights, double step_m, int64_t base) {
+    std::vector<float> above;
+    above.reserve(heights.size());
+    for (int32_t height : heights) above.push_back(height == kVoid ? 0.0f : float(step_m * double(height - base)));
+    return above;
+}
 
-HeightsAboveBase heights_above_base(const Terrain& terrain) {
-    int32_t lowest = std::numeric_limits<int32_t>::max(), highest = kVoid;
-    for (int32_t height : terrain.heights) {
-        if (height != kVoid) lowest = std::min(lowest, height);
-        highest = std::max(highest, height);
-    }
-    if (highest == kVoid) lowest = highest = 0;
+// A buffer of zeros that parts are written into.
+gl::Buffer make_room(size_t bytes) {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    glNamedBufferStorage(id, GLsizeiptr(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    return gl::Buffer(id);
+}
 
-    int64_t base = (int64_t(lowest) + int64_t(highest)) / 2;
-    HeightsAboveBase heights;
-    heights.base_m = terrain.height_offset_m + terrain.height_step_m * double(base);
-    heights.lowest_m = terrain.height_step_m * double(lowest - base);
-    heights.highest_m = terrain.height_step_m * double(highest - base);
-    heights.samples.reserve(terrain.heights.size());
-    for (int32_t height : terrain.heights) {
-        heights.samples.push_back(height == kVoid ? 0.0f : float(terrain.height_step_m * double(height - base)));
-    }
-    return heights;
+// Fails where so many places are more than a buffer that is read as a texture can have.
+Result<void> check_places(uint64_t count, const Terrain& head) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (count <= uint32_t(most)) return {};
+    return impossible("a raster of {} x {} samples is too large to draw at once", head.shape.width, head.shape.height);
 }
 
 Result<gl::Texture> make_texture(const ImageRgb8& image) {
@@ -71,43 +79,82 @@ gl::Texture view_of(GLuint buffer, GLenum format) {
 
 }  // namespace
 
+void Drawing::set_head(const Terrain& head, StepRange whole) {
+    if (whole.is_empty()) whole = {0, 0};
+    width_ = head.shape.width;
+    height_ = head.shape.height;
+    sample_count_ = width_ * height_;
+    metres_per_column_ = head.frame.metres_per_column;
+    metres_per_row_ = head.frame.metres_per_row;
+    base_ = (int64_t(whole.low) + int64_t(whole.high)) / 2;
+    base_m_ = head.height_offset_m + head.height_step_m * double(base_);
+    lowest_m_ = head.height_step_m * double(whole.low - base_);
+    highest_m_ = head.height_step_m * double(whole.high - base_);
+}
+
+Result<void> Drawing::set_texture(const ImageRgb8& image) {
+    has_texture_ = !image.pixels.empty();
+    if (!has_texture_) return {};
+    Result<gl::Texture> texture = make_texture(image);
+    if (!texture) return tl::unexpected(texture.error());
+    texture_ = std::move(*texture);
+    texture_id_ = texture_.id();
+    return {};
+}
+
 Result<Drawing> Drawing::make(const Terrain& terrain) {
     assert(terrain.heights.size() == size_t(terrain.shape.width) * terrain.shape.height && !terrain.heights.empty());
-    GLint most_samples = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_samples);
-    if (terrain.heights.size() > uint32_t(most_samples)) {
-        return impossible("a raster of {} x {} samples is too large to draw at once", terrain.shape.width, terrain.shape.height);
-    }
+    if (Result<void> fits = check_places(terrain.heights.size(), terrain); !fits) return tl::unexpected(fits.error());
     Drawing made;
-    made.width_ = terrain.shape.width;
-    made.height_ = terrain.shape.height;
-    made.metres_per_column_ = terrain.frame.metres_per_column;
-    made.metres_per_row_ = terrain.frame.metres_per_row;
-
-    HeightsAboveBase heights = heights_above_base(terrain);
-    made.base_m_ = heights.base_m;
-    made.lowest_m_ = heights.lowest_m;
-    made.highest_m_ = heights.highest_m;
-    made.heights_ = gl::make_buffer(std::as_bytes(std::span(heights.samples)));
+    made.set_head(terrain, range_of(terrain));
+    std::vector<float> above = above_base(terrain.heights, terrain.height_step_m, made.base_);
+    made.heights_ = gl::make_buffer(std::as_bytes(std::span(above)));
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain does not fit into the renderer's memory");
 
     made.heights_view_ = view_of(made.heights_.id(), GL_R32F);
     made.heights_view_id_ = made.heights_view_.id();
-    made.has_texture_ = !terrain.texture.pixels.empty();
-    if (made.has_texture_) {
-        Result<gl::Texture> texture = make_texture(terrain.texture);
-        if (!texture) return tl::unexpected(texture.error());
-        made.texture_ = std::move(*texture);
-        made.texture_id_ = made.texture_.id();
-    }
+    if (Result<void> textured = made.set_texture(terrain.texture); !textured) return tl::unexpected(textured.error());
     if (Result<void> own = made.make_own(); !own) return tl::unexpected(own.error());
     return made;
+}
+
+Result<Drawing> Drawing::make(const Tiles& tiles) {
+    uint64_t places = uint64_t(tiles.slot_count()) * kTileSamples;
+    if (Result<void> fits = check_places(places, tiles.head()); !fits) return tl::unexpected(fits.error());
+    Drawing made;
+    made.set_head(tiles.head(), tiles.file().whole());
+    made.is_tiled_ = true;
+    made.sample_count_ = uint32_t(places);
+    made.heights_ = make_room(places * sizeof(float));
+    made.slots_ = make_room(tiles.slot_count() * sizeof(glm::uvec4));
+    if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain's tiles do not fit into the renderer's memory");
+
+    made.heights_view_ = view_of(made.heights_.id(), GL_R32F);
+    made.heights_view_id_ = made.heights_view_.id();
+    made.slots_view_ = view_of(made.slots_.id(), GL_RGBA32UI);
+    if (Result<void> textured = made.set_texture(tiles.head().texture); !textured) return tl::unexpected(textured.error());
+    if (Result<void> own = made.make_own(); !own) return tl::unexpected(own.error());
+    for (uint32_t tile = 0; tile < tiles.grid().count(); ++tile)
+        if (tiles.view(tile).heights != nullptr) made.take_tile(tiles, tile);
+    return made;
+}
+
+void Drawing::take_tile(const Tiles& tiles, uint32_t tile) {
+    const Tiles::View& view = tiles.view(tile);
+    GridPlace from = tiles.grid().origin(tile);
+    glm::uvec4 slot{from.x, from.y, tiles.grid().block(tile).level, 0};
+    std::vector<float> above = above_base({view.heights, kTileSamples}, tiles.head().height_step_m, base_);
+    GLsizeiptr bytes = GLsizeiptr(kTileSamples * sizeof(float));
+    glNamedBufferSubData(heights_.id(), bytes * view.slot, bytes, above.data());
+    glNamedBufferSubData(slots_.id(), GLintptr(view.slot * sizeof(slot)), sizeof(slot), &slot);
+    tile_bytes_ += uint64_t(bytes) + sizeof(slot);
 }
 
 Result<Drawing> Drawing::sharing(const Drawing& first) {
     Drawing made;
     made.width_ = first.width_;
     made.height_ = first.height_;
+    made.sample_count_ = first.sample_count_;
     made.metres_per_column_ = first.metres_per_column_;
     made.metres_per_row_ = first.metres_per_row_;
     made.base_m_ = first.base_m_;
@@ -131,21 +178,23 @@ Result<void> Drawing::make_own() {
     return make_programs();
 }
 
+std::string Drawing::vertex_source(const std::string& placed) const {
+    return std::string(shaders::kTerrainVertexInputs) + (is_tiled_ ? shaders::kTileCells : shaders::kRasterCells) + placed +
+           shaders::kTerrainVertexMain;
+}
+
 Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
-    std::string vertex =
-        shaders::kTerrainVertexInputs + (shader.vertex.empty() ? shaders::kUnmoved : shader.vertex) + shaders::kTerrainVertexMain;
+    std::string vertex = vertex_source(shader.vertex.empty() ? shaders::kUnmoved : shader.vertex);
     std::string fragment = std::string(shaders::kAir) + shaders::kTerrainFragment + shader.fragment;
     return gl::Program::make(shader.name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 
 Result<void> Drawing::make_programs() {
-    const std::string vertex_source =
-        std::string(shaders::kTerrainVertexInputs) + shaders::kUnmoved + shaders::kTerrainVertexMain;
     const std::string ground_source = std::string(shaders::kAir) + shaders::kTerrainFragment;
     const std::string wireframe_source = ground_source + shaders::kWireframeMain;
     auto shaded = program({"terrain", "", shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
-    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source},
+    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source(shaders::kUnmoved)},
                                                      {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},
                                                      {GL_FRAGMENT_SHADER, wireframe_source}});
     if (!wireframe) return tl::unexpected(wireframe.error());
@@ -199,8 +248,8 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     double width_m = metres_per_column_ * width_, height_m = metres_per_row_ * height_;
 
     glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
-    glUniform1ui(program.at("width"), width_);
-    glUniform1ui(program.at("sample_count"), width_ * height_);
+    if (!is_tiled_) glUniform1ui(program.at("width"), width_);
+    glUniform1ui(program.at("sample_count"), sample_count_);
     glUniform2i(program.at("camera_sample"), GLint(whole_column), GLint(whole_row));
     glUniform2f(program.at("camera_rest"), float(column - whole_column), float(row - whole_row));
     glUniform2f(program.at("metres_per_cell"), float(metres_per_column_), float(-metres_per_row_));
@@ -250,6 +299,7 @@ void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, 
     glBindVertexArray(vertices_.id());
     glBindTextureUnit(1, heights_view_id_);
     glBindTextureUnit(2, morphs_view_.id());
+    if (is_tiled_) glBindTextureUnit(4, slots_view_.id());
     if (has_texture_) glBindTextureUnit(0, texture_id_);
     set_anisotropy(options.anisotropy);
     uint64_t triangles = uint64_t(index_count_) / 3, first = std::min(range.first, triangles);
@@ -266,7 +316,7 @@ void Drawing::take(const Cut& cut) {
     index_count_ = GLsizei(indices.size());
     static_assert(sizeof(Cut::Morph) == 8);
     if (!cut.morphs.empty()) morphs_.fill(std::as_bytes(std::span(cut.morphs)));
-    uploaded_bytes_ = indices.size_bytes() + cut.morphs.size() * sizeof(Cut::Morph);
+    uploaded_bytes_ = indices.size_bytes() + cut.morphs.size() * sizeof(Cut::Morph) + std::exchange(tile_bytes_, 0);
 }
 
 void Drawing::draw(const gl::Target& target, const Cut& cut, const view::Camera& camera, const DrawOptions& options) {

@@ -11,6 +11,7 @@
 #include "runtime/gl/surface.h"
 #include "runtime/gl/target.h"
 #include "runtime/terrain/refine.h"
+#include "runtime/terrain/tiles.h"
 #include "runtime/view/camera.h"
 
 namespace overlook::terrain {
@@ -49,6 +50,11 @@ class Drawing {
     // which must outlive it; all else is its own. So both may draw at once, each in its own thread. Fails with Exit::our_bug.
     static Result<Drawing> sharing(const Drawing& first);
 
+    // Of a terrain in tiles: 4 bytes a vertex of every slot. Cuts are TileRefiner's. Fails as the first.
+    static Result<Drawing> make(const Tiles& tiles);
+    // A tile has arrived and has its slot.
+    void take_tile(const Tiles& tiles, uint32_t tile);
+
     // Draws sky and terrain into `target` and resolves it. Indices of `cut` refer to the terrain given to make().
     // The same arguments give the same picture. A part shows what the whole picture shows there, but for what rounding decides:
     // a renderer rounds places on the screen by their distance from the viewport's own corner.
@@ -60,24 +66,30 @@ class Drawing {
     void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options, TriangleRange range = {});
     void draw_sky(const view::Camera& camera, const DrawOptions& options) const;  // where nothing is drawn yet
 
-    // What the last draw() or take() sent to the card.
+    // What the last draw() or take() sent to the card, and the tiles since the one before.
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
   private:
     Drawing() = default;
     void set_anisotropy(float anisotropy);
+    void set_head(const Terrain& head, StepRange whole);
+    Result<void> set_texture(const ImageRgb8& image);
     Result<void> make_own();
+    std::string vertex_source(const std::string& placed) const;
     Result<void> make_programs();
     Result<void> make_sky_row();
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
 
-    uint32_t width_ = 0, height_ = 0;
+    uint32_t width_ = 0, height_ = 0, sample_count_ = 0;
+    bool is_tiled_ = false;
     double metres_per_column_ = 1, metres_per_row_ = 1;
-    double base_m_ = 0;     // heights on the card are above this one
+    int64_t base_ = 0;  // steps; heights on the card are above this one
+    double base_m_ = 0;
     double lowest_m_ = 0;   // above base_m_
     double highest_m_ = 0;  // above base_m_
     bool has_texture_ = false;
-    gl::Buffer heights_;
+    gl::Buffer heights_, slots_;  // slots: first column, row and level of each
+    gl::Texture slots_view_;
     gl::VertexArray vertices_, nothing_;
     gl::StreamBuffer indices_, morphs_;
     gl::Texture heights_view_, morphs_view_;  // the buffers as textures of one row
@@ -86,7 +98,7 @@ class Drawing {
     GLuint heights_view_id_ = 0, texture_id_ = 0;  // its own or those it shares
     float anisotropy_ = 0;                         // that its texture was set to
     gl::Program shaded_, wireframe_, sky_;
-    uint64_t uploaded_bytes_ = 0;
+    uint64_t uploaded_bytes_ = 0, tile_bytes_ = 0;
 };
 
 // A terrain's cut as a thing that any method may colour. The drawing must outlive it.

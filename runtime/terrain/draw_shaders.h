@@ -25,6 +25,22 @@ out Surface {
 } surface;
 )";
 
+// Which cell a place is: of a raster; of tiles, by the first cell and the level of its slot (runtime/terrain/tiles.h).
+inline constexpr char kRasterCells[] = R"(
+ivec2 cell_of(uint id) {
+    return ivec2(id % width, id / width);
+}
+)";
+inline constexpr char kTileCells[] = R"(
+layout(binding = 4) uniform usamplerBuffer slots;
+ivec2 cell_of(uint id) {
+    uint local = id % (129u * 129u);
+    uvec4 slot = texelFetch(slots, int(id / (129u * 129u)));
+    uvec2 cell = slot.xy + (uvec2(local % 129u, local / 129u) << slot.z);
+    return ivec2(min(cell, uvec2(raster_size) - 1u));
+}
+)";
+
 // Vertices are drawn where they are.
 inline constexpr char kUnmoved[] = R"(
 vec3 placed(vec3 relative_m) {
@@ -42,7 +58,7 @@ void main() {
         rise_m = uintBitsToFloat(morph.y);
     }
     float height_m = texelFetch(heights, int(id)).r + rise_m;
-    ivec2 cell = ivec2(id % width, id / width);
+    ivec2 cell = cell_of(id);
     vec2 cells_away = vec2(cell - camera_sample) - camera_rest;
     vec3 true_m = vec3(cells_away * metres_per_cell, height_m - camera_height_m);
     surface.relative_m = placed(true_m);

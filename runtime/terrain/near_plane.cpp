@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "formats/terrain_diamond.h"
+#include "runtime/terrain/tiles.h"
 
 namespace overlook::terrain {
 namespace {
@@ -37,19 +38,26 @@ struct Span {
           last(int64_t(std::floor(std::clamp(after, -1.0, double(count) - 1)))) {}
 };
 
-}  // namespace
+struct Cells {
+    Span columns, rows;
+};
+Cells cells_within(const Terrain& head, const glm::dvec3& place_m, double within_m) {
+    double column_m = head.frame.metres_per_column, row_m = head.frame.metres_per_row;
+    return {Span((place_m.x - within_m) / column_m, (place_m.x + within_m) / column_m, head.shape.width - 1),
+            Span((-place_m.y - within_m) / row_m, (-place_m.y + within_m) / row_m, head.shape.height - 1)};
+}
 
-double distance_to_ground_m(const Terrain& terrain, const glm::dvec3& place_m, double within_m) {
+// steps_at(x, y): the height of a sample in steps.
+template <class StepsAt>
+double distance_to_cells_m(const Terrain& terrain, const Cells& cells, const glm::dvec3& place_m, double within_m,
+                           const StepsAt& steps_at) {
     double column_m = terrain.frame.metres_per_column, row_m = terrain.frame.metres_per_row;
-    uint32_t width = terrain.shape.width, height = terrain.shape.height;
-    if (width < 2 || height < 2) return within_m;
-    Span columns((place_m.x - within_m) / column_m, (place_m.x + within_m) / column_m, width - 1);
-    Span rows((-place_m.y - within_m) / row_m, (-place_m.y + within_m) / row_m, height - 1);
+    const Span &columns = cells.columns, &rows = cells.rows;
     auto corner = [&](int64_t x, int64_t y) {
-        int32_t steps = terrain.heights[size_t(y) * width + size_t(x)];
+        int32_t steps = steps_at(uint32_t(x), uint32_t(y));
         return glm::dvec3{double(x) * column_m, -double(y) * row_m, terrain.height_offset_m + terrain.height_step_m * steps};
     };
-    auto is_void = [&](int64_t x, int64_t y) { return terrain.heights[size_t(y) * width + size_t(x)] == kVoid; };
+    auto is_void = [&](int64_t x, int64_t y) { return steps_at(uint32_t(x), uint32_t(y)) == kVoid; };
 
     double nearest_m = within_m;
     for (int64_t y = rows.first; y <= rows.last; ++y)
@@ -71,12 +79,50 @@ double distance_to_ground_m(const Terrain& terrain, const glm::dvec3& place_m, d
     return nearest_m;
 }
 
-view::Camera with_clear_near_plane(const Terrain& terrain, const view::Camera& camera) {
-    double reach_m = camera.near_m * view::corner_secant(camera) / kNearShare;
-    double clear_m = distance_to_ground_m(terrain, camera.position_m, reach_m);
+view::Camera with_near_plane_of(const view::Camera& camera, double clear_m, double reach_m) {
     view::Camera clear = camera;
     clear.near_m = std::max(std::min(camera.near_m, kLeastNear_m), camera.near_m * clear_m / reach_m);
     return clear;
+}
+
+double reach_m_of(const view::Camera& camera) {
+    return camera.near_m * view::corner_secant(camera) / kNearShare;
+}
+
+}  // namespace
+
+double distance_to_ground_m(const Terrain& terrain, const glm::dvec3& place_m, double within_m) {
+    uint32_t width = terrain.shape.width, height = terrain.shape.height;
+    if (width < 2 || height < 2) return within_m;
+    return distance_to_cells_m(terrain, cells_within(terrain, place_m, within_m), place_m, within_m,
+                               [&](uint32_t x, uint32_t y) { return terrain.heights[size_t(y) * width + x]; });
+}
+
+double distance_to_ground_m(const Tiles& tiles, const glm::dvec3& place_m, double within_m) {
+    const Terrain& head = tiles.head();
+    Cells cells = cells_within(head, place_m, within_m);
+    bool is_known = true, is_apart = true;
+    for (int64_t y = cells.rows.first; y <= cells.rows.last; ++y)
+        for (int64_t x = cells.columns.first; x <= cells.columns.last; ++x) {
+            for (int64_t corner = 0; corner < 4; ++corner)
+                is_known = is_known && tiles.height(uint32_t(x + corner % 2), uint32_t(y + corner / 2)).has_value();
+            HeightRange range = tiles.range_round(uint32_t(x), uint32_t(y));
+            is_apart = is_apart && (range.is_empty() || place_m.z - double(range.high_m) >= within_m ||
+                                    double(range.low_m) - place_m.z >= within_m);
+        }
+    if (is_apart) return within_m;
+    if (!is_known) return 0;
+    return distance_to_cells_m(head, cells, place_m, within_m, [&](uint32_t x, uint32_t y) { return *tiles.height(x, y); });
+}
+
+view::Camera with_clear_near_plane(const Terrain& terrain, const view::Camera& camera) {
+    double reach_m = reach_m_of(camera);
+    return with_near_plane_of(camera, distance_to_ground_m(terrain, camera.position_m, reach_m), reach_m);
+}
+
+view::Camera with_clear_near_plane(const Tiles& tiles, const view::Camera& camera) {
+    double reach_m = reach_m_of(camera);
+    return with_near_plane_of(camera, distance_to_ground_m(tiles, camera.position_m, reach_m), reach_m);
 }
 
 }  // namespace overlook::terrain

@@ -5,6 +5,7 @@
 
 #include "formats/container.h"
 #include "formats/mapped_file.h"
+#include "formats/terrain_tiles.h"
 #include "tools/bake/dem_provenance.h"
 #include "tools/bake/images.h"
 #include "tools/bake/relief.h"
@@ -39,10 +40,13 @@ Result<void> check_output(const TerrainArgs& args) {
     return {};
 }
 
-Result<uint64_t> write_file(const std::string& path, const terrain::Terrain& terrain, const container::Provenance& provenance) {
-    auto writer = container::Writer::create(path, terrain::kKind);
+Result<uint64_t> write_file(const TerrainArgs& args, const terrain::Terrain& terrain, const container::Provenance& provenance) {
+    auto writer = container::Writer::create(args.output, terrain::kKind);
     if (!writer) return tl::unexpected(writer.error());
     if (auto written = terrain::write(*writer, terrain); !written) return tl::unexpected(written.error());
+    if (args.is_streamed) {
+        if (auto written = terrain::write_tiles(*writer, terrain); !written) return tl::unexpected(written.error());
+    }
     if (auto written = writer->add_provenance(provenance); !written) return tl::unexpected(written.error());
     return writer->commit();
 }
@@ -83,6 +87,8 @@ CLI::App* add_terrain_verb(CLI::App& app, TerrainArgs& args, command::Common& co
     verb->add_option("--window", args.window, "Only this part: X,Y,W,H in samples from the north-west");
     verb->add_option("--texture", args.texture, "A picture over the whole raster (default: relief shaded from the heights)");
     verb->add_flag("--no-texture", args.no_texture, "No picture at all")->excludes("--texture");
+    verb->add_flag("--streamed", args.is_streamed,
+                   "Add what player --stream-memory needs to fly over it with a part of it in memory");
     verb->add_option("--cell-size-m", args.dem_options.cell_size_m,
                      "Metres between samples, for files that do not say (PNG); overrides those that do")
         ->check(command::number_in(1e-6, 1e6));
@@ -111,6 +117,7 @@ int bake_terrain(TerrainArgs args, const command::Common& common) {
 
     container::Provenance provenance{
         kName, command::version(), dem::options_in_words(args.dem_options, args.bake), {{dem->source_name, dem->source_hash}}};
+    if (args.is_streamed) provenance.options.emplace_back("streamed", "true");
     auto texture = texture_of(args, *dem, provenance);
     if (!texture) return command::fail(kName, texture.error());
 
@@ -119,7 +126,7 @@ int bake_terrain(TerrainArgs args, const command::Common& common) {
     if (!terrain) return command::fail(kName, Error{terrain.error().exit, args.dem + ": " + terrain.error().message});
     terrain->texture = std::move(*texture);
 
-    auto bytes = write_file(args.output, *terrain, provenance);
+    auto bytes = write_file(args, *terrain, provenance);
     if (!bytes) return command::fail(kName, bytes.error());
     report(args, *terrain, *dem, *bytes, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), common);
     return int(Exit::done);

@@ -15,6 +15,7 @@ struct TerrainArgs {
     std::string window;
     std::string texture;  // a picture over the whole raster; empty = shaded relief
     bool no_texture = false;
+    bool is_streamed = false;  // with tiles
     dem::Options dem_options;
     terrain::BakeOptions bake;
 };
