@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "runtime/gl/surface_shaders.h"
 #include "runtime/lod_sprite/draw_shaders.h"
 
 namespace overlook::lod_sprite {
@@ -74,7 +75,7 @@ DepthGrid read_depth(const KeyPicture& picture, uint32_t step) {
 }
 
 Result<gl::Program> key_program(const gl::Surface& surface) {
-    return surface.program({"key", "", shaders::kKeyMain});
+    return surface.program({"key", "", gl::shaders::kShadedMain});  // a key keeps the picture as it is shown, air and all
 }
 
 Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots) {

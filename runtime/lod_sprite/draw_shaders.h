@@ -3,13 +3,6 @@
 
 namespace overlook::lod_sprite::shaders {
 
-// A key keeps the picture as it is shown, air and all.
-inline constexpr char kKeyMain[] = R"(
-void main() {
-    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
-}
-)";
-
 // How far above or below a vertex the true surface may lie: what low_error_px pixels are there, along the vertical
 // (view::error_px_bound_vertical solved for its error).
 inline constexpr char kSlack[] = R"(
