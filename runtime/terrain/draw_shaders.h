@@ -77,12 +77,14 @@ void main() {
 
 inline constexpr char kAir[] = R"(
 // The sky, and the air before far things, by the sine of the altitude one looks at.
+vec3 low_air_colour(float up) {
+    return mix(vec3(0.24, 0.31, 0.39), vec3(0.60, 0.69, 0.78), exp(-12.0 * up * up));  // nadir, horizon
+}
 vec3 air_colour(float up) {
     vec3 horizon = vec3(0.60, 0.69, 0.78);
     vec3 middle = vec3(0.16, 0.34, 0.64);
     vec3 zenith = vec3(0.04, 0.11, 0.34);
-    vec3 nadir = vec3(0.24, 0.31, 0.39);
-    if (up < 0.0) return mix(horizon, nadir, 1.0 - exp(-12.0 * up * up));
+    if (up < 0.0) return low_air_colour(up);
     vec3 low = mix(horizon, middle, 1.0 - exp(-7.0 * up - 20.0 * up * up));
     return mix(low, zenith, smoothstep(0.2, 0.95, up));
 }
@@ -118,8 +120,9 @@ vec3 own_colour(vec3 at_m) {
 
 vec3 behind_air(vec3 ground, vec3 at_m) {
     float distance_m = length(at_m);
-    vec3 air = air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
-    return mix(air, ground, exp(-pow(distance_m * haze_per_m, 1.5)));
+    vec3 air = low_air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
+    float hazes = distance_m * haze_per_m;
+    return mix(air, ground, exp(-hazes * sqrt(hazes)));
 }
 )";
 
