@@ -6,20 +6,14 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "runtime/caveclod/draw_shaders.h"
+#include "runtime/gl/background.h"
 #include "runtime/gl/png.h"
+#include "runtime/gl/surface_shaders.h"
 
 namespace overlook::caveclod {
 namespace {
 
 constexpr size_t kPageBytes = 3 * kPageFaces * sizeof(uint32_t);
-
-// A buffer as a texture of one row, which a shader may read at any place.
-gl::Texture view_of(GLuint buffer, GLenum format) {
-    GLuint id = 0;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
-    glTextureBuffer(id, format, buffer);
-    return gl::Texture(id);
-}
 
 gl::Buffer new_buffer(size_t pages) {
     GLuint id = 0;
@@ -27,20 +21,6 @@ gl::Buffer new_buffer(size_t pages) {
     gl::Buffer buffer(id);
     glNamedBufferData(id, GLsizeiptr(pages * kPageBytes), nullptr, GL_DYNAMIC_DRAW);
     return buffer;
-}
-
-gl::Texture texture_of(const ImageRgba8& image) {
-    GLuint id = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &id);
-    gl::Texture texture(id);
-    GLsizei levels = 1 + GLsizei(std::log2(std::max(image.width, image.height)));
-    glTextureStorage2D(id, levels, GL_SRGB8_ALPHA8, GLsizei(image.width), GLsizei(image.height));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(id, 0, 0, 0, GLsizei(image.width), GLsizei(image.height), GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-    glGenerateTextureMipmap(id);
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    return texture;
 }
 
 view::Part part_of(const view::Camera& camera, const DrawOptions& options) {
@@ -57,7 +37,7 @@ float linear_of(uint8_t encoded) {
 CameraBuffers::CameraBuffers(const Mesh& mesh) : surfaces_(mesh.surface_count()) {
     const GlideVertex none{};
     glides_.fill(std::as_bytes(std::span(&none, 1)));
-    glides_view_ = view_of(glides_.id(), GL_RGB32UI);
+    glides_view_ = gl::make_view(glides_.id(), GL_RGB32UI);
 }
 
 void CameraBuffers::take_surface(const FaceSlots& faces, uint32_t surface) {
@@ -126,10 +106,10 @@ Result<Drawing> Drawing::make(const Mesh& mesh) {
     Drawing made;
     made.origin_m_ = mesh.origin_m(), made.grid_ = mesh.grid(), made.vertex_count_ = mesh.vertex_count();
     made.vertices_ = gl::make_buffer(std::as_bytes(mesh.vertices()));
-    made.vertices_view_ = view_of(made.vertices_.id(), GL_RGBA32UI);
+    made.vertices_view_ = gl::make_view(made.vertices_.id(), GL_RGBA32UI);
     if (!mesh.colours().empty()) {
         made.colours_ = gl::make_buffer(std::as_bytes(mesh.colours()));
-        made.colours_view_ = view_of(made.colours_.id(), GL_R32UI);
+        made.colours_view_ = gl::make_view(made.colours_.id(), GL_R32UI);
     }
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the mesh does not fit into the renderer's memory");
     made.grid_.normal_bits = mesh.attributes().normals ? made.grid_.normal_bits : 0;
@@ -140,22 +120,19 @@ Result<Drawing> Drawing::make(const Mesh& mesh) {
 }
 
 Result<void> Drawing::make_looks(const Mesh& mesh) {
-    GLint most_px = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
     for (const caveclod::Surface& surface : mesh.surfaces()) {
         ImageRgba8 picture{1, 1, {255, 255, 255, 255}};
         if (!surface.texture_bytes.empty()) {
             Result<ImageRgba8> decoded = decode_png(surface.texture, surface.texture_bytes);
             if (!decoded)
                 faults_.push_back(decoded.error().message);
-            else if (std::max(decoded->width, decoded->height) > uint32_t(most_px))
-                return impossible("{}: the picture of {} x {} pixels is too large for this renderer ({} at most)",
-                                  surface.texture, decoded->width, decoded->height, most_px);
             else
                 picture = std::move(*decoded);
         }
+        Result<gl::Texture> texture = gl::make_texture(picture);
+        if (!texture) return impossible("{}: {}", surface.texture, texture.error().message);
         Look look;
-        look.picture = texture_of(picture);
+        look.picture = std::move(*texture);
         look.colour = {linear_of(surface.colour[0]), linear_of(surface.colour[1]), linear_of(surface.colour[2]),
                        float(surface.colour[3]) / 255};
         if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
@@ -166,10 +143,11 @@ Result<void> Drawing::make_looks(const Mesh& mesh) {
 }
 
 Result<void> Drawing::make_programs() {
-    auto shaded = program({"mesh", "", shaders::kShadedMain});
+    auto shaded = program({"mesh", "", gl::shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
-    auto background = gl::Program::make(
-        "background", {{GL_VERTEX_SHADER, shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, shaders::kBackgroundFragment}});
+    std::string behind = std::string(gl::shaders::kBackgroundDirection) + shaders::kBackgroundFragment;
+    auto background =
+        gl::Program::make("background", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, behind}});
     if (!background) return tl::unexpected(background.error());
     shaded_ = std::move(*shaded);
     background_ = std::move(*background);
@@ -178,8 +156,8 @@ Result<void> Drawing::make_programs() {
 
 Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
     std::string vertex =
-        shaders::kMeshVertexInputs + (shader.vertex.empty() ? shaders::kUnmoved : shader.vertex) + shaders::kMeshVertexMain;
-    std::string fragment = std::string(shaders::kMeshFragment) + shader.fragment;
+        shaders::kMeshVertexInputs + (shader.vertex.empty() ? gl::shaders::kUnmoved : shader.vertex) + shaders::kMeshVertexMain;
+    std::string fragment = std::string(gl::shaders::kEncoding) + shaders::kMeshFragment + shader.fragment;
     return gl::Program::make(shader.name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 
@@ -229,19 +207,7 @@ void Drawing::draw_with(const gl::Program& program, const CameraBuffers& buffers
 }
 
 void Drawing::draw_background(const view::Camera& camera, const DrawOptions& options) const {
-    view::Part part = part_of(camera, options);
-    glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
-    background_.use();
-    glUniformMatrix3fv(background_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
-    glUniform1f(background_.at("focal_px"), float(view::focal_px(camera)));
-    glUniform2f(background_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
-    glUniform2f(background_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
-    glBindVertexArray(nothing_.id());
-    glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GEQUAL);  // it is drawn at depth 0
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthFunc(GL_GREATER);
-    glDepthMask(GL_TRUE);
+    gl::draw_background(background_, camera, part_of(camera, options), nothing_);
 }
 
 void Drawing::draw(const gl::Target& target, const CameraBuffers& buffers, const view::Camera& camera,

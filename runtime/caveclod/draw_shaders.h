@@ -1,4 +1,4 @@
-// The shaders of draw.cpp. Colours are mixed in linear light and written sRGB-encoded.
+// The shaders of draw.cpp, beside those of runtime/gl/surface_shaders.h.
 #pragma once
 
 namespace overlook::caveclod::shaders {
@@ -25,13 +25,6 @@ out Surface {
     vec2 uv;
     vec4 tint;
 } surface;
-)";
-
-// Vertices are drawn where they are.
-inline constexpr char kUnmoved[] = R"(
-vec3 placed(vec3 relative_m) {
-    return relative_m;
-}
 )";
 
 inline constexpr char kMeshVertexMain[] = R"(
@@ -100,7 +93,7 @@ void main() {
 }
 )";
 
-inline constexpr char kMeshFragment[] = R"(#version 450 core
+inline constexpr char kMeshFragment[] = R"(
 in Surface {
     vec3 relative_m;
     vec3 normal;
@@ -112,12 +105,6 @@ uniform vec4 base_colour;
 uniform float alpha_cutoff;
 uniform bool has_normals;
 out vec4 colour;
-
-vec3 encoded(vec3 linear) {
-    vec3 low = linear * 12.92;
-    vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
-    return mix(high, low, lessThanEqual(linear, vec3(0.0031308)));
-}
 
 // Of the surface near the pixel: light from the upper left, and a little from the eye.
 vec3 own_colour(vec3 at_m) {
@@ -137,29 +124,10 @@ vec3 behind_air(vec3 linear, vec3 at_m) {
 }
 )";
 
-inline constexpr char kShadedMain[] = R"(
-void main() {
-    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
-}
-)";
-
-inline constexpr char kBackgroundVertex[] = R"(#version 450 core
-void main() {
-    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)";
-
 // Lighter above the horizon than below.
-inline constexpr char kBackgroundFragment[] = R"(#version 450 core
-uniform mat3 world_from_eye;
-uniform float focal_px;
-uniform vec2 middle_px;
-uniform vec2 first_px;  // of the part that is drawn: its lower left corner in the picture
-out vec4 colour;
+inline constexpr char kBackgroundFragment[] = R"(
 void main() {
-    float up = normalize(world_from_eye * vec3((gl_FragCoord.xy + first_px - middle_px) / focal_px, -1.0)).z;
-    colour = vec4(mix(vec3(0.30, 0.33, 0.38), vec3(0.62, 0.68, 0.76), 0.5 + 0.5 * up), 1.0);
+    colour = vec4(mix(vec3(0.30, 0.33, 0.38), vec3(0.62, 0.68, 0.76), 0.5 + 0.5 * direction().z), 1.0);
 }
 )";
 

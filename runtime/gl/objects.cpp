@@ -2,8 +2,32 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace overlook::gl {
+namespace {
+
+Result<Texture> make_filtered(uint32_t width_px, uint32_t height_px, GLenum format, const uint8_t* pixels) {
+    GLint most_px = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+    if (std::max(width_px, height_px) > uint32_t(most_px)) {
+        return impossible("the picture of {} x {} pixels is too large for this renderer ({} at most)", width_px, height_px,
+                          most_px);
+    }
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &id);
+    Texture texture(id);
+    GLsizei levels = 1 + GLsizei(std::log2(std::max(width_px, height_px)));
+    glTextureStorage2D(id, levels, GL_SRGB8_ALPHA8, GLsizei(width_px), GLsizei(height_px));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id, 0, 0, 0, GLsizei(width_px), GLsizei(height_px), format, GL_UNSIGNED_BYTE, pixels);
+    glGenerateTextureMipmap(id);
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+}  // namespace
 
 void free_object(Kind kind, GLuint id) {
     switch (kind) {
@@ -37,6 +61,21 @@ VertexArray make_vertex_array() {
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
     return VertexArray(id);
+}
+
+Texture make_view(GLuint buffer, GLenum format) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+    glTextureBuffer(id, format, buffer);
+    return Texture(id);
+}
+
+Result<Texture> make_texture(const ImageRgb8& image) {
+    return make_filtered(image.width, image.height, GL_RGB, image.pixels.data());
+}
+
+Result<Texture> make_texture(const ImageRgba8& image) {
+    return make_filtered(image.width, image.height, GL_RGBA, image.pixels.data());
 }
 
 StreamBuffer::StreamBuffer() {

@@ -8,6 +8,9 @@
 #include <span>
 #include <utility>
 
+#include "formats/result.h"
+#include "runtime/gl/png.h"
+
 namespace overlook::gl {
 
 enum class Kind { buffer, vertex_array, texture, framebuffer, renderbuffer };
@@ -42,6 +45,14 @@ using Renderbuffer = Object<Kind::renderbuffer>;
 // A buffer that never changes. bytes must not be empty.
 Buffer make_buffer(std::span<const std::byte> bytes);
 VertexArray make_vertex_array();
+// A buffer as a texture of one row, which a shader may read at any place. It follows the buffer when that is filled anew.
+Texture make_view(GLuint buffer, GLenum format);
+
+// A picture of sRGB-encoded colours, its rows from the top, as a texture with all its smaller levels, filtered between pixels and
+// levels; it repeats beyond its edges. Fails with Exit::impossible: "the picture of 20000 x 3 pixels is too large for this
+// renderer (16384 at most)".
+Result<Texture> make_texture(const ImageRgb8& image);
+Result<Texture> make_texture(const ImageRgba8& image);
 
 // A buffer that is filled anew every frame. What the last frame still reads is left to it: the driver gives fresh memory
 // (orphaning).

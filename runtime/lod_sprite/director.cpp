@@ -25,7 +25,7 @@ void Director::forget() {
 
 Reuse Director::reuse(uint32_t slot, const view::Camera& camera, const Shown* shown) const {
     double coarser = spending_.coarser(true);
-    return reuse_of(slots_[slot].key, camera, settings_.low_error_px * coarser, settings_.error_px * coarser, shown);
+    return reuse_of(slots_[slot].key, camera, settings_.low_error_px * coarser, fine_error_px() * coarser, shown);
 }
 
 void Director::use(uint32_t slot) {
@@ -45,7 +45,8 @@ double Director::key_cut_px() const {
 }
 
 bool Director::serves(const Reuse& reuse) const {
-    return reuse.error_p99_px <= most_error_px() && reuse.magnification_p99 <= settings_.most_magnified;
+    return reuse.drawn_p99_px <= most_error_px() && reuse.lost_share() <= settings_.most_lost &&
+           reuse.magnification_p99 <= settings_.most_magnified;
 }
 
 void Director::take_over(uint32_t slot) {

@@ -28,6 +28,7 @@ struct Settings {
     // A new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it. A frame's own geometry keeps it
     // where no key shows what is there (or error_px, where that is more, but not more than low_error_px).
     double key_error_px = 1;
+    double most_lost = 0.04;      // or where more of the frame than that is geometry, as the key does not show it
     double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
     double guard = 1.15;
     uint32_t scale = 2;         // texels of a key a pixel, in both directions
@@ -37,7 +38,8 @@ struct Settings {
     uint32_t fade_frames = 8;  // over which a new key takes over from the old; 0 = at once
     double morph = 0;          // of the coarse cut (terrain::Refiner::cut_by_pixels)
     KeyMode mode = KeyMode::sliced;
-    bool draws_near = true;  // what keys could not serve for their life is drawn as geometry
+    bool closes_open = true;  // what no key is proven to show is drawn finer than the coarse cut (shown.h)
+    bool draws_near = true;   // what keys could not serve for their life is drawn as geometry
     // That a frame may draw, those into keys included (of sliced keys: spending.h); 0 = as many as its errors take.
     double triangles = 0;
 };
@@ -124,7 +126,6 @@ class Director {
     Reuse reuse(uint32_t slot, const view::Camera& camera, const Shown* shown = nullptr) const;
     Shown shown(uint32_t slot) const { return shown_by(slots_[slot].key, camera_, settings_.most_magnified); }
     void use(uint32_t slot);
-    bool is_filled() const;
     bool has_before() const { return before_ && slots_[*before_].is_whole; }
     view::PictureMask open_parts() const;
     double most_error_px() const;

@@ -7,7 +7,6 @@ namespace overlook::lod_sprite {
 namespace {
 
 constexpr double kLeastShown = 0.02;  // of the frame, nor one that has so little
-constexpr double kFillWorth = 0.002;  // of the frame: so much must be lost for an older key to be looked into as well
 constexpr double kFillWeight = 1.0 / 1024;
 
 // Does a key's camera see all that another does from a depth on? Four rays at that depth, and where they go, decide: what lies
@@ -55,16 +54,11 @@ void Director::put_near_first() {
     novel_.near_triangle_count = kept / 3;
 }
 
-// Is the key before the one in use looked into as well?
-bool Director::is_filled() const {
-    return has_before() && (fade_left_ > 0 || current_reuse_.lost_share() > kFillWorth);
-}
-
 // Of the picture, where the surface's own colours are seen: where no key that is looked into shows what is there, or where a key
 // fades in over none.
 view::PictureMask Director::open_parts() const {
     std::vector<uint8_t> is_open = current_shown_.is_open;
-    if (is_filled()) {
+    if (has_before()) {
         Shown other = shown(*before_);
         for (size_t i = 0; i < is_open.size(); ++i) is_open[i] = (is_open[i] || fade_left_ > 0) && other.is_open[i];
     }
@@ -95,7 +89,7 @@ void Director::cut_coarse() {
     if (has_key) {
         const view::Camera& asked = slots_[fade_left_ > 0 && has_before() ? *before_ : *current_].key.camera;
         if (!sees_all(asked, camera_, std::max(novel_.near_depth_m, camera_.near_m))) novel_.finer_outside = asked;
-        novel_.finer_in = open_parts();
+        if (settings_.closes_open) novel_.finer_in = open_parts();
     }
     for (int tries = 0; tries < kMostTries && !fits; ++tries) {
         double coarser = spending_.coarser(is_coarse);
@@ -132,7 +126,7 @@ const Novel& Director::novel() {
     if (has_key) {
         double fade = settings_.fade_frames > 0 ? double(fade_left_) / settings_.fade_frames : 0;
         novel_.keys.push_back({*current_, std::max(1 - fade, kFillWeight)});
-        if (is_filled()) novel_.keys.push_back({*before_, std::max(fade, kFillWeight)});
+        if (has_before()) novel_.keys.push_back({*before_, std::max(fade, kFillWeight)});
         novel_.own_weight = fade;
         if (fade_left_ > 0) --fade_left_;
     }

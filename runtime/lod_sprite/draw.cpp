@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "runtime/gl/surface_shaders.h"
 #include "runtime/lod_sprite/draw_shaders.h"
 
 namespace overlook::lod_sprite {
@@ -49,32 +50,38 @@ Result<gl::Framebuffer> framebuffer_of(const KeyPicture& picture) {
     return framebuffer;
 }
 
-void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface) {
+void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture) {
     gl::bind_for_drawing(framebuffer.id(), picture.drawn_camera.width_px, picture.drawn_camera.height_px);
     clear_depth();
+}
+
+void finish_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface) {
+    gl::bind_for_drawing(framebuffer.id(), picture.drawn_camera.width_px, picture.drawn_camera.height_px);
     surface.draw_background(picture.drawn_camera);
 }
 
 DepthGrid read_depth(const KeyPicture& picture, uint32_t step) {
     uint32_t width_px = picture.drawn_camera.width_px, height_px = picture.drawn_camera.height_px;
-    std::vector<float> all(size_t(width_px) * height_px);
-    glGetTextureImage(picture.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(all.size() * sizeof(float)), all.data());
+    std::vector<float> row(width_px);
     DepthGrid grid{(width_px + step - 1) / step, (height_px + step - 1) / step, {}};
     grid.depth_m.reserve(size_t(grid.width) * grid.height);
     auto middle = [](uint32_t cell, uint32_t cells, uint32_t side_px) {
-        return size_t((2 * uint64_t(cell) + 1) * side_px / (2 * uint64_t(cells)));
+        return uint32_t((2 * uint64_t(cell) + 1) * side_px / (2 * uint64_t(cells)));
     };
-    for (uint32_t y = 0; y < grid.height; ++y)
+    for (uint32_t y = 0; y < grid.height; ++y) {
+        GLint at = GLint(height_px - 1 - middle(y, grid.height, height_px));
+        glGetTextureSubImage(picture.depth, 0, 0, at, 0, GLsizei(width_px), 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                             GLsizei(row.size() * sizeof(float)), row.data());
         for (uint32_t x = 0; x < grid.width; ++x) {
-            size_t row = height_px - 1 - middle(y, grid.height, height_px);
-            float inverse = all[row * width_px + middle(x, grid.width, width_px)];
+            float inverse = row[middle(x, grid.width, width_px)];
             grid.depth_m.push_back(inverse > 0 ? float(picture.camera.near_m) / inverse : std::numeric_limits<float>::infinity());
         }
+    }
     return grid;
 }
 
 Result<gl::Program> key_program(const gl::Surface& surface) {
-    return surface.program({"key", "", shaders::kKeyMain});
+    return surface.program({"key", "", gl::shaders::kShadedMain});  // a key keeps the picture as it is shown, air and all
 }
 
 Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots) {
@@ -113,11 +120,15 @@ Result<KeyPicture> Painter::reserve_key(uint32_t slot, const view::Camera& camer
     return picture;
 }
 
-Result<void> Painter::begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale) {
+Result<void> Painter::begin_key(uint32_t slot, const view::Camera& camera, uint32_t scale) {
     Result<KeyPicture> picture = reserve_key(slot, camera, scale);
     if (!picture) return tl::unexpected(picture.error());
-    begin_picture(sprites_[slot].framebuffer, *picture, surface);
+    begin_picture(sprites_[slot].framebuffer, *picture);
     return {};
+}
+
+void Painter::finish_key(uint32_t slot, gl::Surface& surface) {
+    finish_picture(sprites_[slot].framebuffer, sprites_[slot].picture, surface);
 }
 
 void Painter::draw_into_key(uint32_t slot, gl::Surface& surface) {
@@ -133,8 +144,9 @@ Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const
                     (options.is_mask ? 1u << 30 : 0);
     auto known = programs_.find(name);
     if (known == programs_.end()) {
-        bool raises = pass == Pass::keys;
+        bool raises = pass == Pass::keys || pass == Pass::whole_keys;
         std::string fragment = fmt::format("#define KEYS {}\n#define LOOK_UPS {}\n", keys, options.look_ups);
+        if (pass == Pass::whole_keys) fragment += "#define WHOLE\n";
         if (options.shows_sources) fragment += "#define SHOWS_SOURCES\n";
         if (options.is_mask) fragment += fmt::format("#define MASK_OWN {}\n#define MASK_NEAR {}\n", kMaskOwn, kMaskNear);
         fragment += shaders::kSlack;
@@ -156,6 +168,8 @@ void Painter::set_uniforms(const gl::Program& program, const view::Camera& camer
         glm::mat3 rotation(link.key_from_world);
         auto at = [&](const char* uniform) { return program.at(fmt::format("{}[{}]", uniform, i).c_str()); };
         glUniformMatrix3fv(at("key_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
+        glm::vec3 forward_in_key = as_floats(link.key_from_world * view::axes_of(camera).forward);
+        glUniform3fv(at("forward_in_key"), 1, glm::value_ptr(forward_in_key));
         glUniform3fv(at("eye_in_key_m"), 1, glm::value_ptr(as_floats(link.eye_m)));
         glUniform2f(at("key_tangents"), float(link.tangents.x), float(link.tangents.y));
         glUniform1f(at("key_near_m"), float(sprite.picture.camera.near_m));
@@ -180,8 +194,8 @@ void Painter::set_uniforms(const gl::Program& program, const view::Camera& camer
 }
 
 Result<void> Painter::draw_pass(Pass pass, gl::Surface* surface, const view::Camera& camera, const NovelOptions& options) {
-    bool raises = pass == Pass::keys && options.raises;
-    if (surface == nullptr || (pass == Pass::keys && options.keys.empty())) return {};
+    bool shows_keys = pass == Pass::keys || pass == Pass::whole_keys, raises = shows_keys && options.raises;
+    if (surface == nullptr || (shows_keys && options.keys.empty())) return {};
     Result<const gl::Program*> program = program_of(*surface, options, pass);
     if (!program) return tl::unexpected(program.error());
     (*program)->use();
@@ -193,15 +207,14 @@ Result<void> Painter::draw_pass(Pass pass, gl::Surface* surface, const view::Cam
     return {};
 }
 
-// The frame as it is without keys.
-Result<void> Painter::draw_own(gl::Surface* near, gl::Surface& far, const view::Camera& camera, const NovelOptions& options) {
-    NovelOptions own = options;
-    own.keys.clear();
-    if (Result<void> drawn = draw_pass(Pass::near, near, camera, own); !drawn) return drawn;
-    if (Result<void> drawn = draw_pass(Pass::rest, &far, camera, own); !drawn) return drawn;
-    far.draw_background(camera);
-    clear_depth();
-    return {};
+// Where all texels that a pixel needs count. Keys too light to be seen beside the first, which only fill what it does not show, are
+// not asked there.
+Result<void> Painter::draw_whole(gl::Surface& far, const view::Camera& camera, const NovelOptions& options, bool fades) {
+    constexpr double kSeen = 1.0 / 256;  // a step of an 8-bit picture
+    if (options.is_mask || options.keys.empty() || (fades && options.keys.size() < 2)) return {};
+    NovelOptions seen = options;
+    if (!fades) std::erase_if(seen.keys, [&](const KeyUse& key) { return key.weight < kSeen * options.keys[0].weight; });
+    return draw_pass(Pass::whole_keys, &far, camera, seen);
 }
 
 // What keys show goes over what is there, each pixel once: its front is settled first.
@@ -221,20 +234,22 @@ Result<void> Painter::blend_keys(gl::Surface& far, const view::Camera& camera, c
 
 Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
                            const NovelOptions& options) {
-    assert(options.keys.size() <= kMostKeysAtOnce && options.look_ups >= 1);
+    assert(options.keys.size() <= kMostKeysAtOnce);
     target.bind();
     clear_depth();
     const GLfloat nothing[4] = {0, 0, 0, 1};
     if (options.is_mask) glClearBufferfv(GL_COLOR, 0, nothing);
     bool fades = options.own_weight > 0 && !options.keys.empty() && !options.is_mask && !options.shows_sources;
-    if (fades) {
-        if (Result<void> drawn = draw_own(near, far, camera, options); !drawn) return drawn;
-    }
     if (Result<void> drawn = draw_pass(Pass::near, near, camera, options); !drawn) return drawn;
-    Result<void> shown = fades ? blend_keys(far, camera, options) : draw_pass(Pass::keys, &far, camera, options);
-    if (!shown) return shown;
+    if (Result<void> drawn = draw_whole(far, camera, options, fades); !drawn) return drawn;
+    if (!fades) {
+        if (Result<void> drawn = draw_pass(Pass::keys, &far, camera, options); !drawn) return drawn;
+    }
     if (Result<void> drawn = draw_pass(Pass::rest, &far, camera, options); !drawn) return drawn;
     if (!options.is_mask) far.draw_background(camera);
+    if (fades) {
+        if (Result<void> drawn = blend_keys(far, camera, options); !drawn) return drawn;
+    }
     target.resolve();
     return {};
 }

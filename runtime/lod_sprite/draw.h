@@ -40,7 +40,7 @@ struct NovelOptions {
     double most_slack_m = 1e9;   // no surface is farther than that from its coarse form
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
     double most_texel_px = 1.5;  // how wide a texel may have become
-    uint32_t look_ups = 3;       // a pixel and key, at least 1
+    uint32_t look_ups = 3;       // a pixel and key at most; 0 = it is where the coarse surface is
     bool raises = true;          // the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
     bool tests_places = true;    // a texel counts only where it is in its own place in this frame
@@ -57,8 +57,10 @@ struct KeyPicture {
 // What is drawn into from now on in this context: the picture's textures, through a framebuffer made for them. Fails with
 // Exit::impossible if the renderer cannot.
 Result<gl::Framebuffer> framebuffer_of(const KeyPicture& picture);
-// Empties the picture but for the surface's background. framebuffer: of framebuffer_of().
-void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface);
+// Makes the picture ready to be drawn into. framebuffer: of framebuffer_of().
+void begin_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture);
+// Adds the surface's background where nothing has been drawn.
+void finish_picture(const gl::Framebuffer& framebuffer, const KeyPicture& picture, gl::Surface& surface);
 // The picture's depths (metres along its axis, infinity = nothing) in the middle of each cell of a grid over it, from the top; a
 // cell is at most `step` texels wide and high. Waits until they are drawn.
 DepthGrid read_depth(const KeyPicture& picture, uint32_t step);
@@ -74,10 +76,12 @@ class Painter {
     // Makes room in a slot for a key of this camera, whose picture has camera.width_px * scale columns. Fails with
     // Exit::impossible where the renderer cannot have such a picture.
     Result<KeyPicture> reserve_key(uint32_t slot, const view::Camera& camera, uint32_t scale);
-    // The same, and empties it but for the surface's background.
-    Result<void> begin_key(uint32_t slot, gl::Surface& surface, const view::Camera& camera, uint32_t scale);
+    // The same, and makes it ready to be drawn into.
+    Result<void> begin_key(uint32_t slot, const view::Camera& camera, uint32_t scale);
     // Adds what the surface draws now, as the key's camera sees it.
     void draw_into_key(uint32_t slot, gl::Surface& surface);
+    // Makes it whole: adds the surface's background where nothing has been drawn.
+    void finish_key(uint32_t slot, gl::Surface& surface);
     DepthGrid read_depth(uint32_t slot, uint32_t step) const { return lod_sprite::read_depth(sprites_[slot].picture, step); }
 
     // Draws a novel frame, background and all, and resolves it. near: what lies nearer than near_depth_m all through, drawn
@@ -96,9 +100,9 @@ class Painter {
         gl::Texture colour, depth;
         gl::Framebuffer framebuffer;
     };
-    enum class Pass { near, keys, rest };
+    enum class Pass { near, whole_keys, keys, rest };
     Result<void> draw_pass(Pass pass, gl::Surface* surface, const view::Camera& camera, const NovelOptions& options);
-    Result<void> draw_own(gl::Surface* near, gl::Surface& far, const view::Camera& camera, const NovelOptions& options);
+    Result<void> draw_whole(gl::Surface& far, const view::Camera& camera, const NovelOptions& options, bool fades);
     Result<void> blend_keys(gl::Surface& far, const view::Camera& camera, const NovelOptions& options);
     Result<const gl::Program*> program_of(const gl::Surface& surface, const NovelOptions& options, Pass pass);
     void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options, bool raises) const;

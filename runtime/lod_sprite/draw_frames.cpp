@@ -35,6 +35,7 @@ std::vector<KnownSetting> make_settings() {
          [](Options& o, double v) { o.decide.low_error_px = v; }},
         {number("key-error-px", 0.01, 1000, is.decide.key_error_px, false),
          [](Options& o, double v) { o.decide.key_error_px = v; }},
+        {number("most-lost", 0, 0.3, is.decide.most_lost, true), [](Options& o, double v) { o.decide.most_lost = v; }},
         {whole("key-scale", 1, 4, is.decide.scale), [](Options& o, double v) { o.decide.scale = uint32_t(v); }},
         {number("texel-share", 0, 1, is.decide.texel_share, true), [](Options& o, double v) { o.decide.texel_share = v; }},
         {number("guard", 1, 3, is.decide.guard, true), [](Options& o, double v) { o.decide.guard = v; }},
@@ -42,10 +43,11 @@ std::vector<KnownSetting> make_settings() {
         {whole("fade-frames", 0, 60, is.decide.fade_frames), [](Options& o, double v) { o.decide.fade_frames = uint32_t(v); }},
         {{"keyframe", 0, kKeyModes.size() - 1.0, double(is.decide.mode), true, true, false, kKeyModes},
          [](Options& o, double v) { o.decide.mode = KeyMode(int(v)); }},
+        {on_off("open-parts", is.decide.closes_open), [](Options& o, double v) { o.decide.closes_open = v != 0; }},
         {on_off("near", is.decide.draws_near), [](Options& o, double v) { o.decide.draws_near = v != 0; }},
         {number("morph", 0, 1, is.decide.morph, true), [](Options& o, double v) { o.decide.morph = v; }},
         {number("tolerance-px", 0.05, 10, is.draw.tolerance_px, true), [](Options& o, double v) { o.draw.tolerance_px = v; }},
-        {whole("look-ups", 1, 16, is.draw.look_ups), [](Options& o, double v) { o.draw.look_ups = uint32_t(v); }},
+        {whole("look-ups", 0, 16, is.draw.look_ups), [](Options& o, double v) { o.draw.look_ups = uint32_t(v); }},
         {on_off("outlines", is.draw.raises), [](Options& o, double v) { o.draw.raises = v != 0; }},
         {on_off("slab-test", is.draw.tests_slab), [](Options& o, double v) { o.draw.tests_slab = v != 0; }},
         {on_off("place-test", is.draw.tests_places), [](Options& o, double v) { o.draw.tests_places = v != 0; }},
@@ -190,7 +192,7 @@ Result<void> FrameDrawer::draw_key() {
 
 Result<void> FrameDrawer::draw_slice() {
     if (work_->begin != nullptr) {
-        Result<void> begun = painter_->begin_key(work_->slot, surface_, *work_->begin, settings_.scale);
+        Result<void> begun = painter_->begin_key(work_->slot, *work_->begin, settings_.scale);
         if (!begun) return begun;
     }
     surface_.take(*work_->slice);
@@ -199,6 +201,7 @@ Result<void> FrameDrawer::draw_slice() {
     const terrain::Cut& slice = *work_->slice;
     count_key(slice.triangle_count(), slice.indices.size(), slice.tested_count, surface_.uploaded_bytes());
     if (work_->is_last) {
+        painter_->finish_key(work_->slot, surface_);
         director_->key_done(painter_->read_depth(work_->slot, grid_step()));
         is_whole_[work_->slot] = true;
     }

@@ -109,12 +109,13 @@ void KeyThread::run(const terrain::Drawing& ground) {
 Result<KeyThread::Done> KeyThread::draw(Worker& worker, const Order& order) {
     Result<gl::Framebuffer> framebuffer = framebuffer_of(order.picture);
     if (!framebuffer) return tl::unexpected(framebuffer.error());
-    begin_picture(*framebuffer, order.picture, worker.surface);
+    begin_picture(*framebuffer, order.picture);
     refiner_.cut_by_pixels(order.picture.camera, order.error_px, worker.cut);
     worker.surface.take(worker.cut);
     worker.program.use();
     gl::bind_for_drawing(framebuffer->id(), order.picture.drawn_camera.width_px, order.picture.drawn_camera.height_px);
     worker.surface.draw(worker.program, order.picture.drawn_camera);
+    finish_picture(*framebuffer, order.picture, worker.surface);
     Done done{read_depth(order.picture, order.grid_step), worker.cut.triangle_count(), worker.cut.indices.size(),
               worker.cut.tested_count, worker.surface.uploaded_bytes()};
     glFinish();

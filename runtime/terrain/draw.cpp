@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/gl/background.h"
+#include "runtime/gl/surface_shaders.h"
 #include "runtime/terrain/draw_shaders.h"
 
 namespace overlook::terrain {
@@ -31,7 +33,7 @@ std::vector<float> above_base(std::span<const int32_t> heights, double step_m, i
     return above;
 }
 
-// A buffer of zeros that parts are written into.
+// A buffer that parts are written into.
 gl::Buffer make_room(size_t bytes) {
     GLuint id = 0;
     glCreateBuffers(1, &id);
@@ -47,34 +49,13 @@ Result<void> check_places(uint64_t count, const Terrain& head) {
     return impossible("a raster of {} x {} samples is too large to draw at once", head.shape.width, head.shape.height);
 }
 
-Result<gl::Texture> make_texture(const ImageRgb8& image) {
-    GLint most_px = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
-    if (std::max(image.width, image.height) > uint32_t(most_px)) {
-        return impossible("the texture of {} x {} pixels is too large for this renderer ({} at most)", image.width, image.height,
-                          most_px);
-    }
-    GLuint id = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &id);
-    gl::Texture texture(id);
-    GLsizei levels = 1 + GLsizei(std::log2(std::max(image.width, image.height)));
-    glTextureStorage2D(id, levels, GL_SRGB8_ALPHA8, GLsizei(image.width), GLsizei(image.height));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(id, 0, 0, 0, GLsizei(image.width), GLsizei(image.height), GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-    glGenerateTextureMipmap(id);
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+// Its border stands where the raster's does.
+Result<gl::Texture> make_clamped(const ImageRgb8& image) {
+    Result<gl::Texture> texture = gl::make_texture(image);
+    if (!texture) return texture;
+    glTextureParameteri(texture->id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture->id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return texture;
-}
-
-// A buffer as a texture of one row, which a shader may read at any place. It follows the buffer when that is filled anew.
-gl::Texture view_of(GLuint buffer, GLenum format) {
-    GLuint id = 0;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
-    glTextureBuffer(id, format, buffer);
-    return gl::Texture(id);
 }
 
 }  // namespace
@@ -95,7 +76,7 @@ void Drawing::set_head(const Terrain& head, StepRange whole) {
 Result<void> Drawing::set_texture(const ImageRgb8& image) {
     has_texture_ = !image.pixels.empty();
     if (!has_texture_) return {};
-    Result<gl::Texture> texture = make_texture(image);
+    Result<gl::Texture> texture = make_clamped(image);
     if (!texture) return tl::unexpected(texture.error());
     texture_ = std::move(*texture);
     texture_id_ = texture_.id();
@@ -111,7 +92,7 @@ Result<Drawing> Drawing::make(const Terrain& terrain) {
     made.heights_ = gl::make_buffer(std::as_bytes(std::span(above)));
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain does not fit into the renderer's memory");
 
-    made.heights_view_ = view_of(made.heights_.id(), GL_R32F);
+    made.heights_view_ = gl::make_view(made.heights_.id(), GL_R32F);
     made.heights_view_id_ = made.heights_view_.id();
     if (Result<void> textured = made.set_texture(terrain.texture); !textured) return tl::unexpected(textured.error());
     if (Result<void> own = made.make_own(); !own) return tl::unexpected(own.error());
@@ -129,9 +110,9 @@ Result<Drawing> Drawing::make(const Tiles& tiles) {
     made.slots_ = make_room(tiles.slot_count() * sizeof(glm::uvec4));
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the terrain's tiles do not fit into the renderer's memory");
 
-    made.heights_view_ = view_of(made.heights_.id(), GL_R32F);
+    made.heights_view_ = gl::make_view(made.heights_.id(), GL_R32F);
     made.heights_view_id_ = made.heights_view_.id();
-    made.slots_view_ = view_of(made.slots_.id(), GL_RGBA32UI);
+    made.slots_view_ = gl::make_view(made.slots_.id(), GL_RGBA32UI);
     if (Result<void> textured = made.set_texture(tiles.head().texture); !textured) return tl::unexpected(textured.error());
     if (Result<void> own = made.make_own(); !own) return tl::unexpected(own.error());
     for (uint32_t tile = 0; tile < tiles.grid().count(); ++tile)
@@ -151,6 +132,7 @@ void Drawing::take_tile(const Tiles& tiles, uint32_t tile) {
 }
 
 Result<Drawing> Drawing::sharing(const Drawing& first) {
+    assert(!first.is_tiled_);
     Drawing made;
     made.width_ = first.width_;
     made.height_ = first.height_;
@@ -171,7 +153,7 @@ Result<Drawing> Drawing::sharing(const Drawing& first) {
 Result<void> Drawing::make_own() {
     const Cut::Morph none{};
     morphs_.fill(std::as_bytes(std::span(&none, 1)));
-    morphs_view_ = view_of(morphs_.id(), GL_RG32UI);
+    morphs_view_ = gl::make_view(morphs_.id(), GL_RG32UI);
     vertices_ = gl::make_vertex_array();
     nothing_ = gl::make_vertex_array();
     glVertexArrayElementBuffer(vertices_.id(), indices_.id());
@@ -184,21 +166,22 @@ std::string Drawing::vertex_source(const std::string& placed) const {
 }
 
 Result<gl::Program> Drawing::program(const gl::SurfaceShader& shader) const {
-    std::string vertex = vertex_source(shader.vertex.empty() ? shaders::kUnmoved : shader.vertex);
-    std::string fragment = std::string(shaders::kAir) + shaders::kTerrainFragment + shader.fragment;
+    std::string vertex = vertex_source(shader.vertex.empty() ? gl::shaders::kUnmoved : shader.vertex);
+    std::string fragment = std::string(gl::shaders::kEncoding) + shaders::kAir + shaders::kTerrainFragment + shader.fragment;
     return gl::Program::make(shader.name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 
 Result<void> Drawing::make_programs() {
-    const std::string ground_source = std::string(shaders::kAir) + shaders::kTerrainFragment;
+    const std::string ground_source = std::string(gl::shaders::kEncoding) + shaders::kAir + shaders::kTerrainFragment;
     const std::string wireframe_source = ground_source + shaders::kWireframeMain;
-    auto shaded = program({"terrain", "", shaders::kShadedMain});
+    auto shaded = program({"terrain", "", gl::shaders::kShadedMain});
     if (!shaded) return tl::unexpected(shaded.error());
-    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source(shaders::kUnmoved)},
+    auto wireframe = gl::Program::make("wireframe", {{GL_VERTEX_SHADER, vertex_source(gl::shaders::kUnmoved)},
                                                      {GL_GEOMETRY_SHADER, shaders::kWireframeGeometry},
                                                      {GL_FRAGMENT_SHADER, wireframe_source}});
     if (!wireframe) return tl::unexpected(wireframe.error());
-    auto sky = gl::Program::make("sky", {{GL_VERTEX_SHADER, shaders::kSkyVertex}, {GL_FRAGMENT_SHADER, shaders::kSkyFragment}});
+    std::string sky_source = std::string(gl::shaders::kBackgroundDirection) + shaders::kSkyFragment;
+    auto sky = gl::Program::make("sky", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, sky_source}});
     if (!sky) return tl::unexpected(sky.error());
     shaded_ = std::move(*shaded);
     wireframe_ = std::move(*wireframe);
@@ -208,8 +191,9 @@ Result<void> Drawing::make_programs() {
 
 // Colours once and for all, so that a pixel of the sky costs a look-up.
 Result<void> Drawing::make_sky_row() {
-    std::string row_source = std::string(shaders::kAir) + shaders::kSkyRowFragment;
-    auto row = gl::Program::make("sky row", {{GL_VERTEX_SHADER, shaders::kSkyVertex}, {GL_FRAGMENT_SHADER, row_source}});
+    std::string row_source = std::string(gl::shaders::kEncoding) + shaders::kAir + shaders::kSkyRowFragment;
+    auto row =
+        gl::Program::make("sky row", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, row_source}});
     if (!row) return tl::unexpected(row.error());
     GLuint texture = 0, framebuffer = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
@@ -267,20 +251,8 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
 }
 
 void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) const {
-    view::Part part = part_of(camera, options);
-    glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
-    sky_.use();
-    glUniformMatrix3fv(sky_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
-    glUniform1f(sky_.at("focal_px"), float(view::focal_px(camera)));
-    glUniform2f(sky_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
-    glUniform2f(sky_.at("first_px"), float(part.left_px), float(double(camera.height_px) - part.top_px - part.height_px));
-    glBindVertexArray(nothing_.id());
     glBindTextureUnit(3, sky_row_.id());
-    glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GEQUAL);  // it is drawn at depth 0
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthFunc(GL_GREATER);
-    glDepthMask(GL_TRUE);
+    gl::draw_background(sky_, camera, part_of(camera, options), nothing_);
 }
 
 // Of its own texture; a shared one is as its owner has it.

@@ -1,5 +1,5 @@
-// The shaders of draw.cpp; fragment shaders are put together from kAir and what follows it. Colours are mixed in linear light and
-// written sRGB-encoded.
+// The shaders of draw.cpp, beside those of runtime/gl/surface_shaders.h; fragment shaders are put together from gl's kEncoding,
+// kAir and what follows it.
 #pragma once
 
 namespace overlook::terrain::shaders {
@@ -38,13 +38,6 @@ ivec2 cell_of(uint id) {
     uvec4 slot = texelFetch(slots, int(id / (129u * 129u)));
     uvec2 cell = slot.xy + (uvec2(local % 129u, local / 129u) << slot.z);
     return ivec2(min(cell, uvec2(raster_size) - 1u));
-}
-)";
-
-// Vertices are drawn where they are.
-inline constexpr char kUnmoved[] = R"(
-vec3 placed(vec3 relative_m) {
-    return relative_m;
 }
 )";
 
@@ -98,20 +91,16 @@ void main() {
 }
 )";
 
-inline constexpr char kAir[] = R"(#version 450 core
-vec3 encoded(vec3 linear) {
-    vec3 low = linear * 12.92;
-    vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
-    return mix(high, low, lessThanEqual(linear, vec3(0.0031308)));
-}
-
+inline constexpr char kAir[] = R"(
 // The sky, and the air before far things, by the sine of the altitude one looks at.
+vec3 low_air_colour(float up) {
+    return mix(vec3(0.24, 0.31, 0.39), vec3(0.60, 0.69, 0.78), exp(-12.0 * up * up));  // nadir, horizon
+}
 vec3 air_colour(float up) {
     vec3 horizon = vec3(0.60, 0.69, 0.78);
     vec3 middle = vec3(0.16, 0.34, 0.64);
     vec3 zenith = vec3(0.04, 0.11, 0.34);
-    vec3 nadir = vec3(0.24, 0.31, 0.39);
-    if (up < 0.0) return mix(horizon, nadir, 1.0 - exp(-12.0 * up * up));
+    if (up < 0.0) return low_air_colour(up);
     vec3 low = mix(horizon, middle, 1.0 - exp(-7.0 * up - 20.0 * up * up));
     return mix(low, zenith, smoothstep(0.2, 0.95, up));
 }
@@ -147,14 +136,9 @@ vec3 own_colour(vec3 at_m) {
 
 vec3 behind_air(vec3 ground, vec3 at_m) {
     float distance_m = length(at_m);
-    vec3 air = air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
-    return mix(air, ground, exp(-pow(distance_m * haze_per_m, 1.5)));
-}
-)";
-
-inline constexpr char kShadedMain[] = R"(
-void main() {
-    colour = vec4(encoded(behind_air(own_colour(surface.relative_m), surface.relative_m)), 1.0);
+    vec3 air = low_air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
+    float hazes = distance_m * haze_per_m;
+    return mix(air, ground, exp(-hazes * sqrt(hazes)));
 }
 )";
 
@@ -173,13 +157,6 @@ void main() {
 }
 )";
 
-inline constexpr char kSkyVertex[] = R"(#version 450 core
-void main() {
-    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)";
-
 // The encoded colours of the sky in a row of kSkyColours, by the sine of the altitude, -1..1 from its first middle to its last.
 inline constexpr int kSkyColours = 2048;
 inline constexpr char kSkyRowFragment[] = R"(
@@ -190,21 +167,14 @@ void main() {
 }
 )";
 
-inline constexpr char kSkyFragment[] = R"(#version 450 core
-uniform mat3 world_from_eye;
-uniform float focal_px;
-uniform vec2 middle_px;                        // of the picture
-uniform vec2 first_px;                         // of the part that is drawn: its lower left corner in the picture
+inline constexpr char kSkyFragment[] = R"(
 layout(binding = 3) uniform sampler2D sky_row;
-out vec4 colour;
 
 void main() {
-    vec2 at_px = gl_FragCoord.xy + first_px;
-    vec3 direction = world_from_eye * vec3((at_px - middle_px) / focal_px, -1.0);
-    float count = float(textureSize(sky_row, 0).x), place = (0.5 + 0.5 * normalize(direction).z) * (count - 1.0) + 0.5;
+    float count = float(textureSize(sky_row, 0).x), place = (0.5 + 0.5 * direction().z) * (count - 1.0) + 0.5;
     vec3 air = textureLod(sky_row, vec2(place / count, 0.5), 0.0).rgb;
     // Half a step of noise, the same in every frame, keeps the sky from showing bands.
-    float noise = fract(52.9829189 * fract(dot(at_px, vec2(0.06711056, 0.00583715)))) - 0.5;
+    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy + first_px, vec2(0.06711056, 0.00583715)))) - 0.5;
     colour = vec4(air + noise / 255.0, 1.0);
 }
 )";

@@ -5,10 +5,8 @@
 #include "runtime/view/camera.h"
 
 namespace overlook::terrain {
-class Tiles;
-}
 
-namespace overlook::terrain {
+class Tiles;
 
 // The least distance in metres from a place in the terrain's frame to the surface of its finest triangles, as far as within_m;
 // within_m if there is none nearer. Cost O(cells within within_m).

@@ -136,7 +136,7 @@ TEST(SpriteFrame, ShowsGhostsOnlyIfPlacesAreNotTested) {
     view::Camera at = scene.pose(120);
     scene.make_key(0, scene.pose(0), 1.15, 1);
     scene.options.tests_slab = false;
-    scene.options.look_ups = 1;  // what is looked up is not mended either
+    scene.options.look_ups = 0;  // what is looked up is not mended either
     ImageRgb8 full = scene.full(at);
     auto ghosts = [&] {  // the wall's red where full geometry shows none, farther than a pixel from it
         ImageRgb8 novel = scene.novel(at);
@@ -234,7 +234,7 @@ TEST(SpriteFrame, IsDrawnWithoutAnOpenGLError) {
         scene.make_key(0, scene.pose(0), 1.15, 2);
         scene.make_key(1, scene.pose(3), 1.15, 2);
         scene.options.keys = {{0, 0.5}, {1, 0.5}};
-        for (uint32_t look_ups : {1u, 2u, 4u}) {
+        for (uint32_t look_ups : {0u, 1u, 2u, 4u}) {
             scene.options.look_ups = look_ups;
             scene.novel(scene.pose(6));
         }
@@ -270,7 +270,7 @@ TEST(SpriteKey, TooLargeForTheRendererIsRefused) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     SpriteScene scene(test::flat_terrain(65), 1);
     view::Camera at = scene.pose(0);
-    Result<void> begun = scene.painter.begin_key(0, scene.surface, at, 1000);
+    Result<void> begun = scene.painter.begin_key(0, at, 1000);
     ASSERT_FALSE(begun.has_value());
     EXPECT_EQ(begun.error().exit, Exit::impossible);
     EXPECT_NE(begun.error().message.find("is too large for this renderer"), std::string::npos);

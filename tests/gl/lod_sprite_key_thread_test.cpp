@@ -37,7 +37,7 @@ struct Stage {
     // Drawn here, slice by slice.
     Texels sliced(uint32_t slot, const view::Camera& camera) {
         KeyPicture picture = *scene.painter.reserve_key(slot, camera, kScale);
-        EXPECT_TRUE(scene.painter.begin_key(slot, scene.surface, camera, kScale));
+        EXPECT_TRUE(scene.painter.begin_key(slot, camera, kScale));
         terrain::SlicedCut cut(scene.refiner, camera, kError_px);
         terrain::Cut slice;
         while (!cut.is_done()) {
@@ -45,6 +45,7 @@ struct Stage {
             scene.surface.take(slice);
             scene.painter.draw_into_key(slot, scene.surface);
         }
+        scene.painter.finish_key(slot, scene.surface);
         return texels_of(picture);
     }
     KeyPicture begin(uint32_t slot, const view::Camera& camera) {

@@ -70,8 +70,9 @@ void SpriteScene::make_key(uint32_t slot, const view::Camera& frame, double guar
 void SpriteScene::make_key_of(uint32_t slot, gl::Surface& what, const view::Camera& frame, double guard, uint32_t scale) {
     view::Camera key = lod_sprite::key_camera(frame, guard);
     static_cast<terrain::CutSurface&>(what).take(cut(key, kFine_px));
-    ASSERT_TRUE(painter.begin_key(slot, what, key, scale).has_value());
+    ASSERT_TRUE(painter.begin_key(slot, key, scale).has_value());
     painter.draw_into_key(slot, what);
+    painter.finish_key(slot, what);
 }
 
 ImageRgb8 SpriteScene::full(const view::Camera& at) {

@@ -182,7 +182,7 @@ constexpr Trial kTrials[] = {
     {"S08", "fallbacks_unsaid", 2, "terrain", "terrain", nullptr, be_coarse_in_silence},
     {"S11", "honesty", 2, "terrain@error-px=4", "terrain@error-px=4", nullptr, promise_less},
     {"S11", "shear_error_px", 16, "lod-sprite@error-px=0.5@key-error-px=0.5",
-     "lod-sprite@error-px=0.5@key-error-px=2@low-error-px=32@place-test=0@slab-test=0@look-ups=1"},
+     "lod-sprite@error-px=0.5@key-error-px=2@low-error-px=32@place-test=0@slab-test=0@look-ups=0"},
     {"S12", "changed_pixel_share", 2, "terrain", "terrain", nullptr, move_out_of_reach},
     {"S15", "pop_index", 0, "lod-sprite", "lod-sprite", announce_nothing_new, announce_coarse_ground},
     {"S15", "transition_over_time_s", 0, "lod-sprite", "lod-sprite", fly_past_fast, fade_slowly},

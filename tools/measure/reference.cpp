@@ -7,6 +7,7 @@
 
 #include "formats/mapped_file.h"
 #include "runtime/caveclod/draw_shaders.h"
+#include "runtime/gl/surface_shaders.h"
 #include "runtime/terrain/draw_shaders.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/reference_cache.h"
@@ -20,14 +21,15 @@ std::string hash_of(const std::string& text) {
 
 std::string shaders_hash(bool is_mesh) {
     namespace mesh = caveclod::shaders;
+    namespace ground = terrain::shaders;
+    std::string shared = std::string(gl::shaders::kEncoding) + gl::shaders::kUnmoved + gl::shaders::kShadedMain +
+                         gl::shaders::kBackgroundVertex + gl::shaders::kBackgroundDirection;
     if (is_mesh) {
-        return hash_of(std::string(mesh::kMeshVertexInputs) + mesh::kUnmoved + mesh::kMeshVertexMain + mesh::kMeshFragment +
-                       mesh::kShadedMain + mesh::kBackgroundVertex + mesh::kBackgroundFragment);
+        return hash_of(shared + mesh::kMeshVertexInputs + mesh::kMeshVertexMain + mesh::kMeshFragment +
+                       mesh::kBackgroundFragment);
     }
-    return hash_of(std::string(terrain::shaders::kTerrainVertexInputs) + terrain::shaders::kUnmoved +
-                   terrain::shaders::kTerrainVertexMain + terrain::shaders::kAir + terrain::shaders::kTerrainFragment +
-                   terrain::shaders::kShadedMain + terrain::shaders::kSkyVertex + terrain::shaders::kSkyRowFragment +
-                   terrain::shaders::kSkyFragment);
+    return hash_of(shared + ground::kTerrainVertexInputs + ground::kRasterCells + ground::kTerrainVertexMain + ground::kAir +
+                   ground::kTerrainFragment + ground::kSkyRowFragment + ground::kSkyFragment);
 }
 
 std::string bits_of(double number) {

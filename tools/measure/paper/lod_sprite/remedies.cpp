@@ -11,7 +11,7 @@
 namespace overlook::measure::paper::sprite {
 namespace {
 
-constexpr std::array<Remedy, 12> kRemedies = {{
+constexpr std::array<Remedy, 13> kRemedies = {{
     {"keys in slices", "keyframe=at-once",
      "A key is drawn a slice a frame, for a pose predicted ahead; here whole, in the frame that finds the old one too bad."},
     {"keys in slices", "keyframe=thread",
@@ -23,7 +23,9 @@ constexpr std::array<Remedy, 12> kRemedies = {{
      "The coarse surface is raised until it covers the true one, so that crests show the key's outline and not their own."},
     {"slab test", "slab-test=0", "A texel's depth must lie where the coarse surface's own promise allows it."},
     {"place test", "place-test=0", "A texel counts only within half a pixel of its own place in this frame."},
-    {"further look-ups", "look-ups=1", "The key is asked again where the texel's depth puts the point, and once more."},
+    {"look-ups", "look-ups=0", "The key is asked again where the depth that it shows puts the point, until that place rests."},
+    {"open parts closed", "open-parts=0",
+     "What no key is proven to show is drawn as fine as a key is shown again, not by the coarse cut."},
     {"near geometry", "near=0", "What is too near for a key to serve is drawn as geometry, as fine as asked."},
     {"keys of twice the resolution", "key-scale=1", "Four texels a pixel carry the antialiasing into the frames between keys."},
     {"geomorph (here on)", "morph=0.5",
