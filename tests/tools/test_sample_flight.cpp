@@ -39,7 +39,7 @@ TEST(SampleFlights, NeverGoUnderTheGround) {
         std::string name = entry.path().stem().string();
         if (name == "s11") continue;                   // over the slopes
         if (name == "s09" || name == "s10") continue;  // round the vase, along the masts: test_sample_objects.cpp
-        if (name == "s06") continue;  // beside its row of samples the cell may be higher; see below
+        if (name == "s06") continue;                   // beside its row of samples the cell may be higher; see below
         double least_m = name == "s07" ? 30 : kLeastClearance_m;
         EXPECT_GE(least_clearance_m(*flight, default_landscape(), LandscapeOptions{}.cell_size_m), least_m) << name;
     }
