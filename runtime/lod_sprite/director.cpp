@@ -45,8 +45,7 @@ double Director::key_cut_px() const {
 }
 
 bool Director::serves(const Reuse& reuse) const {
-    return reuse.drawn_p99_px <= most_error_px() && reuse.lost_share() <= settings_.most_lost &&
-           reuse.magnification_p99 <= settings_.most_magnified;
+    return reuse.error_p99_px <= most_error_px() && reuse.magnification_p99 <= settings_.most_magnified;
 }
 
 void Director::take_over(uint32_t slot) {

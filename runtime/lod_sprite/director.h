@@ -28,7 +28,6 @@ struct Settings {
     // A new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it. A frame's own geometry keeps it
     // where no key shows what is there (or error_px, where that is more, but not more than low_error_px).
     double key_error_px = 1;
-    double most_lost = 0.04;      // or where more of the frame than that is geometry, as the key does not show it
     double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
     double guard = 1.15;
     uint32_t scale = 2;         // texels of a key a pixel, in both directions

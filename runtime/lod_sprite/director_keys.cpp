@@ -9,7 +9,7 @@ namespace {
 constexpr uint32_t kHurriedSlices = 6;  // of a key that is missing
 constexpr uint32_t kLeastSlices = 4;
 constexpr uint32_t kSoon = 12;             // frames: while a key waits for its turn, another is begun only if both end sooner
-constexpr double kRest = 0.7;              // a key that keeps under this share of its limits as far as one can see may rest
+constexpr double kRest = 0.7;              // a key whose error keeps under this share of the limit as far as one can see may rest
 constexpr uint64_t kLeastSlice = 512;      // triangles
 constexpr uint64_t kUnknownKey = 1 << 18;  // triangles, before there was one
 constexpr double kAimAhead = 2.25;         // of the slices: a key ahead of the camera opens less than one behind it
@@ -29,10 +29,9 @@ uint32_t Director::frames_left() const {
 
 // Of a key that serves as far as one can see: is there nothing to be won by another, as its error is small or does not grow?
 bool Director::may_rest() const {
-    const Reuse &now = current_reuse_, later = reuse(*current_, track_.predicted(settings_.most_slices));
-    auto is_little = [](double is, double comes, double most) { return is <= kRest * most || comes <= is * (1 + 1e-6); };
-    return is_little(now.drawn_p99_px, later.drawn_p99_px, most_error_px()) &&
-           is_little(now.lost_share(), later.lost_share(), settings_.most_lost);
+    double now_px = current_reuse_.error_p99_px;
+    return now_px <= kRest * most_error_px() ||
+           reuse(*current_, track_.predicted(settings_.most_slices)).error_p99_px <= now_px * (1 + 1e-6);
 }
 
 Cause Director::cause_now() const {

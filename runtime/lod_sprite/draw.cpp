@@ -207,8 +207,8 @@ Result<void> Painter::draw_pass(Pass pass, gl::Surface* surface, const view::Cam
     return {};
 }
 
-// Where all texels that a pixel needs count. Keys too light to be seen beside the first, which only fill what it does not show, are
-// not asked there.
+// Where all texels that a pixel needs count. Keys too light to be seen beside the first, which only fill what it does not show,
+// are not asked there.
 Result<void> Painter::draw_whole(gl::Surface& far, const view::Camera& camera, const NovelOptions& options, bool fades) {
     constexpr double kSeen = 1.0 / 256;  // a step of an 8-bit picture
     if (options.is_mask || options.keys.empty() || (fades && options.keys.size() < 2)) return {};

@@ -35,7 +35,6 @@ std::vector<KnownSetting> make_settings() {
          [](Options& o, double v) { o.decide.low_error_px = v; }},
         {number("key-error-px", 0.01, 1000, is.decide.key_error_px, false),
          [](Options& o, double v) { o.decide.key_error_px = v; }},
-        {number("most-lost", 0, 0.3, is.decide.most_lost, true), [](Options& o, double v) { o.decide.most_lost = v; }},
         {whole("key-scale", 1, 4, is.decide.scale), [](Options& o, double v) { o.decide.scale = uint32_t(v); }},
         {number("texel-share", 0, 1, is.decide.texel_share, true), [](Options& o, double v) { o.decide.texel_share = v; }},
         {number("guard", 1, 3, is.decide.guard, true), [](Options& o, double v) { o.decide.guard = v; }},

@@ -61,15 +61,14 @@ struct Place {
 Place place_in(int k, vec3 ray_m, float low_m, float slack_depth_m) {
     vec3 origin = eye_in_key_m[k], along = key_from_world[k] * ray_m, forward = forward_in_key[k];
     float near_in_key_m = key_near_m[k], origin_t = dot(forward, origin);
-    ivec2 last = textureSize(key_depths[k], 0) - 1;
-    vec2 tangents = key_tangents[k], size = vec2(last + 1), middle = 0.5 * size;
+    vec2 tangents = key_tangents[k], size = vec2(textureSize(key_depths[k], 0)), middle = 0.5 * size;
     vec2 scale = middle / tangents, texel_tangents = 1.0 / scale;
     float widest_m = most_texel_px / (focal_px * max(texel_tangents.x, texel_tangents.y));  // for every metre of depth
     vec3 at = origin + along * low_m;
     bool is_fine = at.z > near_in_key_m && at.z <= widest_m * low_m, was_free = false;
     vec2 tangent = at.xy / max(at.z, near_in_key_m), texel = middle + scale * tangent;
     for (int i = 0; i < LOOK_UPS; ++i) {
-        float depth_m = near_in_key_m / max(texelFetch(key_depths[k], clamp(ivec2(texel), ivec2(0), last), 0).r, kFarthest);
+        float depth_m = near_in_key_m / max(textureLod(key_depths[k], texel / size, 0.0).r, kFarthest);
         if (i == 0) was_free = depth_m > at.z * 1.001;
         at = origin + along * (dot(forward, vec3(tangent, 1.0)) * depth_m - origin_t);
         tangent = at.xy / max(at.z, near_in_key_m);

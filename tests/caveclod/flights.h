@@ -5,16 +5,24 @@
 
 #include "runtime/caveclod/settings.h"
 #include "runtime/view/camera.h"
+#include "tests/caveclod/synthetic_hierarchy.h"
 
 namespace overlook::caveclod::flights {
 
 constexpr double kFrame_s = 1.0 / 60;
 
-inline view::Camera camera_at(double x, double y, double z, double heading_deg, double pitch_deg) {
+// 64 m wide; baked once a process.
+inline const Hierarchy& hills() {
+    static const Hierarchy kHills = synthetic::bake(synthetic::hills(64, 64, 3));
+    return kHills;
+}
+
+inline view::Camera camera_at(double x, double y, double z, double heading_deg, double pitch_deg, uint32_t width_px = 800,
+                              uint32_t height_px = 600) {
     view::Camera camera;
     camera.position_m = {x, y, z};
     camera.heading_deg = heading_deg, camera.pitch_deg = pitch_deg;
-    camera.width_px = 800, camera.height_px = 600;
+    camera.width_px = width_px, camera.height_px = height_px;
     camera.near_m = 0.1;
     return camera;
 }

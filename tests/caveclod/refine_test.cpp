@@ -20,13 +20,10 @@ using synthetic::Triangle;
 
 using flights::camera_at;
 using flights::flown;
+using flights::hills;
 using flights::kFrame_s;
 using flights::plain;
 
-const Hierarchy& hills() {
-    static const Hierarchy hierarchy = synthetic::bake(synthetic::hills(64, 64, 3));
-    return hierarchy;
-}
 Mesh mesh_of(const Hierarchy& hierarchy) {
     Result<Mesh> mesh = Mesh::make(hierarchy);
     EXPECT_TRUE(mesh);

@@ -14,13 +14,9 @@ namespace {
 
 using flights::camera_at;
 using flights::flown;
+using flights::hills;
 using flights::kFrame_s;
 using flights::plain;
-
-const Hierarchy& hills() {
-    static const Hierarchy hierarchy = synthetic::bake(synthetic::hills(64, 64, 3));
-    return hierarchy;
-}
 
 TEST(PaperRefinement, KeepsItsListsConsistentThroughAFlight) {
     paper::Mesh mesh(hills());

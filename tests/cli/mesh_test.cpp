@@ -90,6 +90,16 @@ TEST(MeshCommands, ExportedCutsAreMeshesThatBakeAgain) {
 TEST(MeshCommands, GiveTheSameBytesWithAnyThreadCount) {
     ScratchFolder folder;
     std::string mesh = write_torus(folder), first;
+    for (const char* seams : {"strict", "budgeted"}) {
+        first.clear();
+        for (const char* threads : {"1", "2", "7"}) {
+            expect_done(run({"bake-lod", "mesh", mesh, "-o", folder / "baked.ovl", "--threads", threads, "--seams", seams,
+                             "--seam-texels", "20"}));
+            std::string bytes = text_of_file(folder / "baked.ovl");
+            if (first.empty()) first = bytes;
+            EXPECT_TRUE(bytes == first) << threads << " threads, " << seams;
+        }
+    }
     for (const char* codec : {"meshopt", "draco"}) {
         first.clear();
         for (const char* threads : {"1", "2", "7"}) {
@@ -99,6 +109,22 @@ TEST(MeshCommands, GiveTheSameBytesWithAnyThreadCount) {
             EXPECT_TRUE(bytes == first) << threads << " threads, " << codec;
         }
     }
+}
+
+TEST(MeshCommands, SeamsThatMayMoveAreToldBeforeAndProvenAfter) {
+    ScratchFolder folder;
+    std::string mesh = write_torus(folder), baked = folder / "torus.ovl";
+    Ran baking = run({"bake-lod", "mesh", mesh, "-o", baked, "--seams", "budgeted", "--seam-texels", "60"});
+    expect_done(baking);
+    EXPECT_NE(baking.err.find("with strict seams"), std::string::npos) << baking.err;
+    Ran proving = run({"baked", "verify", baked, "--source", mesh, "--cuts", "30", "--json"});
+    expect_done(proving);
+    EXPECT_EQ(json_of(proving)["holds"], true);
+    EXPECT_EQ(json_of(proving)["seams"]["wrong"], 0);
+    EXPECT_LE(json_of(proving)["seams"]["uv_error_texels"].get<double>(), 60.001);
+    Ran looking = run({"baked", "info", baked, "--json"});
+    expect_done(looking);
+    EXPECT_LE(std::stod(json_of(looking)["provenance"]["options"]["found-seam-texels"].get<std::string>()), 60);
 }
 
 TEST(MeshCommands, RefuseWhatIsNoMeshAndLeaveTheOutputWhole) {

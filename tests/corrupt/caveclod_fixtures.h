@@ -35,7 +35,4 @@ struct Parts {
 std::vector<Fixture> whole_files();
 std::vector<Fixture> corrupt_files();
 
-// The rule that a message names ("a.ovl: M5: ..." -> 5), 0 if none.
-int rule_in(const std::string& message);
-
 }  // namespace overlook::caveclod::fixtures

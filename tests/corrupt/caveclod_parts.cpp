@@ -111,12 +111,4 @@ Bytes Parts::file() const {
     return file_of(all, directory(all));
 }
 
-int rule_in(const std::string& message) {
-    size_t at = message.find(": M");
-    if (at == std::string::npos) return 0;
-    int rule = 0;
-    for (at += 3; at < message.size() && std::isdigit(uint8_t(message[at])) != 0; at++) rule = rule * 10 + (message[at] - '0');
-    return at < message.size() && message[at] == ':' ? rule : 0;
-}
-
 }  // namespace overlook::caveclod::fixtures

@@ -2,28 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
 
-#include "tests/corrupt/container_fixtures.h"
+#include "tests/corrupt/laws.h"
 
 namespace overlook::container::fixtures {
 namespace {
 
-const std::string kCorruptFolder = OVERLOOK_SOURCE_DIR "/tests/corrupt/container";
-const std::string kWholeFolder = OVERLOOK_SOURCE_DIR "/tests/fuzz/corpus/container";
+const Kind kKind{"container", 'C', whole_files, corrupt_files, read_everything, rule_count};
 
 class CorruptContainer : public testing::TestWithParam<Fixture> {};
 
 TEST_P(CorruptContainer, IsRefusedByItsRule) {
-    const Fixture& fixture = GetParam();
-    ASSERT_EQ(fixture.name.substr(0, 4), fmt::format("c{:02}_", fixture.rule));
-    Result<void> read = read_everything(fixture.bytes, fixture.name);
-    ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().exit, Exit::bad_input);
-    EXPECT_EQ(rule_in(read.error().message), fixture.rule) << read.error().message;
-    EXPECT_EQ(read.error().message.rfind(fixture.name + ": C", 0), 0u) << read.error().message;
-    EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
+    expect_refused_by_its_rule(kKind, GetParam());
 }
 
 // Sections' bytes are not looked at before they are asked for: rules C1..C18 are of opening, C19..C23 of reading.
@@ -32,33 +22,20 @@ TEST_P(CorruptContainer, IsRefusedOnOpeningIfItsHeadIsBroken) {
 }
 
 TEST_P(CorruptContainer, StandsInTheRepositoryAsItIsMade) {
-    Result<MappedFile> file = MappedFile::open(kCorruptFolder + "/" + GetParam().name);
-    ASSERT_TRUE(file) << file.error().message;
-    EXPECT_TRUE(std::ranges::equal(file->bytes(), GetParam().bytes)) << "make_container_fixtures writes them anew";
+    expect_in_repository_as_made(kKind, GetParam());
 }
-
-std::string test_name(const testing::TestParamInfo<Fixture>& fixture) {
-    std::string name = fixture.param.name.substr(0, fixture.param.name.size() - 4);
-    name[0] = 'C';
-    return name;
-}
-INSTANTIATE_TEST_SUITE_P(Rule, CorruptContainer, testing::ValuesIn(corrupt_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Rule, CorruptContainer, testing::ValuesIn(corrupt_files()),
+                         [](const auto& fixture) { return test_name(kKind, fixture.param); });
 
 TEST(CorruptContainers, ThereIsOneForEveryRule) {
-    std::set<int> rules, expected;
-    for (const Fixture& fixture : corrupt_files()) rules.insert(fixture.rule);
-    for (int rule = 1; rule <= rule_count(); rule++) expected.insert(rule);
-    EXPECT_EQ(rules, expected);
+    expect_one_for_every_rule(kKind);
 }
-
 TEST(CorruptContainers, NoOtherFilesStandInTheFolder) {
-    std::set<std::string> names, expected;
-    for (const Fixture& fixture : corrupt_files()) expected.insert(fixture.name);
-    for (const auto& file : std::filesystem::directory_iterator(kCorruptFolder)) names.insert(file.path().filename());
-    EXPECT_EQ(names, expected);
+    expect_no_other_files(kKind);
 }
 
 TEST(WholeContainers, AreAcceptedAndStandInTheCorpusAsTheyAreMade) {
+    expect_whole_ones_in_corpus(kKind);
     for (const Fixture& fixture : whole_files()) {
         Result<Reader> reader = Reader::open_bytes(fixture.bytes, fixture.name);
         ASSERT_TRUE(reader) << reader.error().message;
@@ -67,18 +44,12 @@ TEST(WholeContainers, AreAcceptedAndStandInTheCorpusAsTheyAreMade) {
             ASSERT_TRUE(raw) << raw.error().message;
             EXPECT_EQ(raw->size(), section.raw_bytes);
         }
-        Result<MappedFile> file = MappedFile::open(kWholeFolder + "/" + fixture.name);
-        ASSERT_TRUE(file) << file.error().message;
-        EXPECT_TRUE(std::ranges::equal(file->bytes(), fixture.bytes)) << fixture.name;
     }
 }
 
 // Few sections, so that all values of all bytes are cheap.
 Bytes small_file() {
-    for (Fixture& fixture : whole_files()) {
-        if (fixture.name == "compressed.ovl") return fixture.bytes;
-    }
-    return {};
+    return whole_file(kKind, "compressed.ovl");
 }
 
 TEST(DamagedContainer, IsRefusedAtEveryTruncatedLength) {
@@ -90,7 +61,7 @@ TEST(DamagedContainer, IsRefusedAtEveryTruncatedLength) {
         Result<Reader> reader = Reader::open_bytes(cut, "a.ovl");
         ASSERT_FALSE(reader) << "cut to " << size << " bytes";
         int expected = size < 8 ? 1 : size < 4096 ? 2 : 4;
-        ASSERT_EQ(rule_in(reader.error().message), expected) << reader.error().message;
+        ASSERT_EQ(rule_in('C', reader.error().message), expected) << reader.error().message;
     }
 }
 
@@ -103,7 +74,7 @@ TEST(DamagedContainer, IsRefusedAtEveryValueOfEveryByteOfHeaderAndTable) {
             Result<Reader> reader = Reader::open_bytes(file, "a.ovl");
             file[at] ^= std::byte(flip);
             ASSERT_FALSE(reader) << "byte " << at << " xor " << flip;
-            ASSERT_EQ(rule_in(reader.error().message), expected) << reader.error().message;
+            ASSERT_EQ(rule_in('C', reader.error().message), expected) << reader.error().message;
         }
     }
 }
@@ -121,7 +92,7 @@ TEST(DamagedContainer, IsRefusedAtEveryValueOfEveryByteOfSectionsAndPadding) {
             Result<void> read = read_everything(file, "a.ovl");
             file[at] ^= std::byte(flip);
             ASSERT_FALSE(read) << "byte " << at << " xor " << flip;
-            ASSERT_EQ(rule_in(read.error().message), in_section ? 20 : 18) << read.error().message;
+            ASSERT_EQ(rule_in('C', read.error().message), in_section ? 20 : 18) << read.error().message;
         }
     }
 }

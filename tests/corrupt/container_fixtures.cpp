@@ -287,8 +287,8 @@ Result<void> read_everything(std::span<const std::byte> file, const std::string&
     return {};
 }
 
-int rule_in(const std::string& message) {
-    size_t at = message.find(": C");
+int rule_in(char letter, const std::string& message) {
+    size_t at = message.find(std::string(": ") + letter);
     if (at == std::string::npos) return 0;
     int rule = 0;
     for (at += 3; at < message.size() && std::isdigit(uint8_t(message[at])) != 0; at++) rule = rule * 10 + (message[at] - '0');

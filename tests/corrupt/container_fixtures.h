@@ -49,7 +49,7 @@ std::vector<Fixture> corrupt_files();
 constexpr uint64_t kMostRawBytes = 1 << 20;
 Result<void> read_everything(std::span<const std::byte> file, const std::string& name);
 
-// The rule that a message names ("a.ovl: C5: ..." -> 5), 0 if none.
-int rule_in(const std::string& message);
+// The rule that a message names (with letter 'C': "a.ovl: C5: ..." -> 5), 0 if none.
+int rule_in(char letter, const std::string& message);
 
 }  // namespace overlook::container::fixtures

@@ -22,9 +22,6 @@ Bytes file_of(const Terrain& terrain);
 std::vector<Fixture> whole_files();
 std::vector<Fixture> corrupt_files();
 
-// The rule that a message names ("a.ovl: T5: ..." -> 5), 0 if none.
-int rule_in(const std::string& message);
-
 // The rows of the document's block ```hexdump, * for repeated ones, as bytes.
 Bytes bytes_of_hexdump(const std::string& document);
 

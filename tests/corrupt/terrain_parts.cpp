@@ -123,14 +123,6 @@ Bytes file_of(const Terrain& terrain) {
     return Parts::of(terrain).file();
 }
 
-int rule_in(const std::string& message) {
-    size_t at = message.find(": T");
-    if (at == std::string::npos) return 0;
-    int rule = 0;
-    for (at += 3; at < message.size() && std::isdigit(uint8_t(message[at])) != 0; at++) rule = rule * 10 + (message[at] - '0');
-    return at < message.size() && message[at] == ':' ? rule : 0;
-}
-
 Bytes bytes_of_hexdump(const std::string& document) {
     std::istringstream lines(document.substr(document.find("```hexdump\n") + 11));
     Bytes bytes;

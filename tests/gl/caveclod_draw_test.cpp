@@ -6,6 +6,7 @@
 
 #include "runtime/caveclod/draw.h"
 #include "runtime/gl/png.h"
+#include "tests/caveclod/flights.h"
 #include "tests/caveclod/synthetic_hierarchy.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
@@ -21,15 +22,10 @@ using caveclod::Refinement;
 using caveclod::Settings;
 namespace synthetic = caveclod::synthetic;
 
-constexpr double kFrame_s = 1.0 / 60;
+using caveclod::flights::kFrame_s;
 
 view::Camera camera_at(double x, double y, double z, double heading_deg, double pitch_deg) {
-    view::Camera camera;
-    camera.position_m = {x, y, z};
-    camera.heading_deg = heading_deg, camera.pitch_deg = pitch_deg;
-    camera.width_px = 320, camera.height_px = 240;
-    camera.near_m = 0.1;
-    return camera;
+    return caveclod::flights::camera_at(x, y, z, heading_deg, pitch_deg, 320, 240);
 }
 
 ImageRgb8 picture(const Drawing& drawing, const CameraBuffers& buffers, const view::Camera& camera) {

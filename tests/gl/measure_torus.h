@@ -14,26 +14,31 @@
 
 namespace overlook::measure {
 
+inline caveclod::Hierarchy baked(const mesh::Mesh& mesh) {
+    caveclod::BakeReport report;
+    auto hierarchy = caveclod::bake(mesh, {}, report, [](double) {});
+    EXPECT_TRUE(hierarchy);
+    return std::move(*hierarchy);
+}
+
 // Baked once a process.
 inline const caveclod::Hierarchy& torus_hierarchy() {
-    static const caveclod::Hierarchy kHierarchy = [] {
-        caveclod::BakeReport report;
-        auto hierarchy = caveclod::bake(caveclod::test::torus(128, 64, 10, 4), {}, report, [](double) {});
-        EXPECT_TRUE(hierarchy);
-        return std::move(*hierarchy);
-    }();
+    static const caveclod::Hierarchy kHierarchy = baked(caveclod::test::torus(128, 64, 10, 4));
     return kHierarchy;
 }
 
 // Uploaded.
-inline World torus_world() {
+inline World world_of(const std::string& name, const caveclod::Hierarchy& hierarchy) {
     World world;
-    world.name = "torus", world.content_hash = "the same torus";
+    world.name = name, world.content_hash = "the same " + name;
     MeshWorld& made = world.mesh.emplace();
-    made.hierarchy = std::make_unique<caveclod::Hierarchy>(torus_hierarchy());
+    made.hierarchy = std::make_unique<caveclod::Hierarchy>(hierarchy);
     made.mesh = std::make_unique<caveclod::Mesh>(*caveclod::Mesh::make(*made.hierarchy));
     EXPECT_TRUE(upload(world));
     return world;
+}
+inline World torus_world() {
+    return world_of("torus", torus_hierarchy());
 }
 
 }  // namespace overlook::measure

@@ -3,6 +3,7 @@
 
 #include "formats/atomic_file.h"
 #include "tools/make_sample/sample_flight.h"
+#include "tools/make_sample/sample_objects.h"
 #include "tools/make_sample/sample_slopes.h"
 
 int main() {
@@ -23,6 +24,8 @@ int main() {
         std::printf("%s: %u frames, at least %.1f m over the ground\n", name.c_str(), scene::frame_count(flight),
                     sample::least_clearance_m(flight, landscape, options.cell_size_m));
     }
+    is_done &= write("flights/s09.json", scene::json_from_flight(sample::vase_flight()));
+    is_done &= write("flights/s10.json", scene::json_from_flight(sample::masts_flight()));
     is_done &= write("flights/s11.json", scene::json_from_flight(sample::slopes_flight()));
     return is_done ? 0 : 4;
 }

@@ -23,7 +23,7 @@ std::string file_text(const std::string& name) {
 TEST(SampleFlights, AreWhatTheLandscapeMakes) {
     double cell_m = LandscapeOptions{}.cell_size_m;
     EXPECT_EQ(scene::json_from_flight(overview_flight(default_landscape(), cell_m)), file_text("flights/overview.json"));
-    size_t count = 2;  // s11 is of the slopes
+    size_t count = 4;  // s11 is of the slopes, s09 and s10 of the vase and the masts
     for (const auto& [name, flight] : suite_flights(default_landscape(), cell_m)) {
         EXPECT_EQ(scene::json_from_flight(flight), file_text("flights/" + name + ".json")) << name;
         ++count;
@@ -37,8 +37,9 @@ TEST(SampleFlights, NeverGoUnderTheGround) {
         Result<scene::Flight> flight = scene::read_flight(entry.path().string());
         ASSERT_TRUE(flight) << flight.error().message;
         std::string name = entry.path().stem().string();
-        if (name == "s11") continue;  // over the slopes
-        if (name == "s06") continue;  // beside its row of samples the cell may be higher; see below
+        if (name == "s11") continue;                   // over the slopes
+        if (name == "s09" || name == "s10") continue;  // round the vase, along the masts: test_sample_objects.cpp
+        if (name == "s06") continue;                   // beside its row of samples the cell may be higher; see below
         double least_m = name == "s07" ? 30 : kLeastClearance_m;
         EXPECT_GE(least_clearance_m(*flight, default_landscape(), LandscapeOptions{}.cell_size_m), least_m) << name;
     }

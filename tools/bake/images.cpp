@@ -267,6 +267,20 @@ Result<ImageRgb8> read_image_rgb8(const std::string& path) {
     return guarded(path, [&] { return read_rgb8(path); });
 }
 
+std::optional<PictureSize> picture_size(const std::string& name, std::span<const std::byte> bytes) {
+    const std::string reader = reader_of(name, bytes);
+    if (bytes.empty() || (reader == "png" && !check_png(bytes, name))) return std::nullopt;
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    OpenImage image;
+    if (!reader.empty()) image.input = ImageInput::create(reader);
+    OIIO::geterror();
+    if (!image.input || !image.input->set_ioproxy(&memory) || !image.input->open(name, image.spec)) return std::nullopt;
+    if (image.spec.width <= 0 || image.spec.height <= 0) return std::nullopt;
+    PictureSize size{uint32_t(image.spec.width), uint32_t(image.spec.height)};
+    image.input->close();
+    return size;
+}
+
 Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);

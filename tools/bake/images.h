@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,13 @@ Result<NumberRaster> read_number_raster(const std::string& path, const ImageWind
 // Any picture that OpenImageIO reads, as 8-bit RGB. Grey is spread to three channels, alpha is dropped, 16 bits are
 // rounded to 8.
 Result<ImageRgb8> read_image_rgb8(const std::string& path);
+
+// Width and height in pixels of a picture file's bytes (PNG, JPEG and what else OpenImageIO reads; `name` tells by its extension
+// where the bytes do not). Reads the header alone. Nothing where it is no picture.
+struct PictureSize {
+    uint32_t width_px = 0, height_px = 0;
+};
+std::optional<PictureSize> picture_size(const std::string& name, std::span<const std::byte> bytes);
 
 // A picture as a PNG file's bytes: 8-bit RGB, sRGB. width and height >= 1. Same picture, same bytes: no date, no program's name.
 // Fails with Exit::cannot_write: "a picture of 512 x 512 pixels cannot be written as PNG: ..." with the library's reason.

@@ -5,6 +5,7 @@
 
 #include "formats/container.h"
 #include "formats/numbers.h"
+#include "tools/bake/mesh_textures.h"
 
 namespace overlook::bake_lod {
 namespace {
@@ -31,9 +32,16 @@ Result<void> check_output(const MeshArgs& args) {
     return {};
 }
 
-Result<uint64_t> write_file(const MeshArgs& args, const caveclod::Hierarchy& hierarchy, const mesh::MeshReport& input) {
+Result<uint64_t> write_file(const MeshArgs& args, const caveclod::Hierarchy& hierarchy, const mesh::MeshReport& input,
+                            const caveclod::BakeReport& bake) {
     container::Provenance provenance{
         kName, command::version(), mesh::options_in_words(args.choices), {{input.source_name, input.source_hash}}};
+    if (args.choices.bake.simplify.seams.moves) {
+        const caveclod::SimplifyReport& found = bake.simplify;
+        provenance.options.emplace_back("found-seam-texels", fmt::format("{}", found.seam_error.uv_texels));
+        provenance.options.emplace_back("found-seam-degrees", fmt::format("{}", found.seam_error.normal_deg));
+        provenance.options.emplace_back("found-seam-shift-m", fmt::format("{}", found.greatest_seam_shift_m));
+    }
     caveclod::Codec codec = args.codec == "draco" ? caveclod::Codec::draco : caveclod::Codec::meshopt;
     if (codec != caveclod::kDefaultCodec) provenance.options.emplace_back("codec", args.codec);
     auto writer = container::Writer::create(args.output, caveclod::kKind);
@@ -75,7 +83,21 @@ nlohmann::ordered_json json_of(const MeshArgs& args, const Done& done) {
             {"needs", bake.simplify.need_count},
             {"depth", bake.simplify.depth},
             {"triangles_coarsest", done.base_face_count},
+            {"positions_kept_by",
+             {{"fixed", bake.simplify.hindrances[0]},
+              {"seams", bake.simplify.hindrances[1]},
+              {"topology", bake.simplify.hindrances[2]},
+              {"orientation", bake.simplify.hindrances[3]},
+              {"measured", bake.simplify.hindrances[4]}}},
+            {"seams", args.seams},
             {"floor_estimate", bake.floor_face_estimate},
+            {"floor_estimate_budgeted", bake.budgeted_floor_face_estimate},
+            {"size_m", bake.size_m},
+            {"triangles_at_one_percent", bake.face_count_at_one_percent},
+            {"seam_uv_error_texels", bake.simplify.seam_error.uv_texels},
+            {"seam_normal_error_deg", bake.simplify.seam_error.normal_deg},
+            {"seam_shift_m", bake.simplify.greatest_seam_shift_m},
+            {"carried_corners", bake.simplify.carried_count},
             {"finest_error_m", done.finest_error_m},
             {"coarsest_error_m", done.coarsest_error_m},
             {"bytes", done.bytes},
@@ -101,11 +123,34 @@ void report(const MeshArgs& args, const Done& done, const command::Common& commo
                                         "triangles a second)",
                                         bake.simplify.collapse_count, bake.simplify.depth, bake.simplify.need_count, done.read_s,
                                         done.bake_s, done.million_triangles_per_s()));
+    command::detail(common, fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
+                                        "topology, {} because a face would fold, {} because one would look away from its source or "
+                                        "a seam's budget would be passed",
+                                        with_commas(done.base_face_count), bake.simplify.hindrances[0], bake.simplify.hindrances[1],
+                                        bake.simplify.hindrances[2], bake.simplify.hindrances[3], bake.simplify.hindrances[4]));
+    command::detail(common, fmt::format("at an error of 1 % of its diagonal ({:.3g} m) {} triangles are left, {:.1f} %", 0.01 * bake.size_m,
+                                        with_commas(bake.face_count_at_one_percent),
+                                        100 * double(bake.face_count_at_one_percent) / double(bake.source_face_count)));
+    if (args.choices.bake.simplify.seams.moves)
+        command::detail(common, fmt::format("seams moved by at most {:.3g} m, which the errors hold; {} corners carry attributes "
+                                            "along, which are wrong by at most {:.2f} texels and {:.2f} degrees",
+                                            bake.simplify.greatest_seam_shift_m, with_commas(bake.simplify.carried_count),
+                                            bake.simplify.seam_error.uv_texels, bake.simplify.seam_error.normal_deg));
     command::note(common, fmt::format("{}: {} triangles, down to {}, {:.1f} MB ({:.1f} bits a triangle); keeps any error from "
                                       "{:.3g} m, at most {:.3g} m",
                                       args.output, with_commas(bake.source_face_count), with_commas(done.base_face_count),
                                       double(done.bytes) / 1e6, done.bits_per_triangle(), done.finest_error_m,
                                       done.coarsest_error_m));
+}
+
+// What no bake can go below, before the long work.
+void tell_floors(const MeshArgs& args, const caveclod::BakeReport& bake, const command::Common& common) {
+    auto share = [&](uint64_t count) { return 100 * double(count) / double(std::max<uint64_t>(bake.source_face_count, 1)); };
+    command::note(common, fmt::format("{}: of {} triangles at least {} ({:.1f} %) stay with strict seams, {} ({:.1f} %) with "
+                                      "budgeted ones",
+                                      args.mesh, with_commas(bake.source_face_count), with_commas(bake.floor_face_estimate),
+                                      share(bake.floor_face_estimate), with_commas(bake.budgeted_floor_face_estimate),
+                                      share(bake.budgeted_floor_face_estimate)));
 }
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -140,6 +185,20 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
     verb->add_option("--position-bits", precision.position_bits, "Bits of each coordinate; the rounding counts towards every error")
         ->check(CLI::Range(8, 20))
         ->capture_default_str();
+    caveclod::SeamBudget& seams = args.choices.bake.simplify.seams;
+    verb->add_option("--seams", args.seams,
+                     "strict: every drawn corner has attributes that the source has there. budgeted: seams may move, by no more "
+                     "than the stated error, and what is drawn beside them may be wrong by as much as the next two say")
+        ->check(CLI::IsMember({"strict", "budgeted"}))
+        ->capture_default_str();
+    verb->add_option("--seam-texels", seams.uv_texels,
+                     "Of a budgeted seam: texels of the surface's texture (1024 across where it has none) by which texture "
+                     "coordinates may be wrong")
+        ->check(command::number_in(0, 1e6))
+        ->capture_default_str();
+    verb->add_option("--seam-degrees", seams.normal_deg, "Of a budgeted seam: degrees by which normals may be wrong")
+        ->check(command::number_in(0, 180))
+        ->capture_default_str();
     verb->add_option("--codec", args.codec, "How the file is packed: meshopt, draco")
         ->check(CLI::IsMember({"meshopt", "draco"}))
         ->capture_default_str();
@@ -149,6 +208,7 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
 
 int bake_mesh(MeshArgs args, const command::Common& common) {
     args.choices.input.up = args.up == "y" ? mesh::Up::y : args.up == "z" ? mesh::Up::z : mesh::Up::automatic;
+    args.choices.bake.simplify.seams.moves = args.seams == "budgeted";
     if (auto checked = check_output(args); !checked) return command::fail(kName, checked.error());
     auto begin = std::chrono::steady_clock::now();
     auto file = mesh::open_mesh(args.mesh, args.choices.input);
@@ -157,11 +217,13 @@ int bake_mesh(MeshArgs args, const command::Common& common) {
     done.input = std::move(file->report);
     caveclod::BakeOptions options = args.choices.bake;
     options.source_rounding_m = done.input.rounding_m;
+    if (options.simplify.seams.moves) options.simplify.seams.texture_px = mesh::texture_sizes_px(file->mesh);
     done.read_s = seconds_since(begin);
 
     begin = std::chrono::steady_clock::now();
     command::Progress progress(common, "baking");
-    auto hierarchy = caveclod::bake(file->mesh, options, done.bake, [&](double share) { progress.set(share); });
+    auto hierarchy = caveclod::bake(file->mesh, options, done.bake, [&](double share) { progress.set(share); },
+                                    [&] { tell_floors(args, done.bake, common); });
     if (!hierarchy)
         return command::fail(kName, Error{hierarchy.error().exit, args.mesh + ": " + hierarchy.error().message});
     done.bake_s = seconds_since(begin);
@@ -169,7 +231,7 @@ int bake_mesh(MeshArgs args, const command::Common& common) {
     done.finest_error_m = double(hierarchy->finest_error_m);
     for (float error_m : hierarchy->error_m) done.coarsest_error_m = std::max(done.coarsest_error_m, double(error_m));
 
-    auto bytes = write_file(args, *hierarchy, done.input);
+    auto bytes = write_file(args, *hierarchy, done.input, done.bake);
     if (!bytes) return command::fail(kName, bytes.error());
     done.bytes = *bytes;
     report(args, done, common);

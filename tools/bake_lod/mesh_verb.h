@@ -13,6 +13,7 @@ struct MeshArgs {
     std::string output;
     std::string codec = caveclod::kDefaultCodec == caveclod::Codec::draco ? "draco" : "meshopt";
     std::string up = "auto";
+    std::string seams = "strict";
     mesh::BakeChoices choices;
 };
 

@@ -76,10 +76,11 @@ double farthest_moved_m(const Hierarchy& h, const mesh::Mesh& source) {
 
 bool Proof::holds() const {
     return broken_law.empty() && lost_triangle_count == 0 && foreign_triangle_count == 0 &&
-           finest_moved_m <= finest_stated_m * (1 + 1e-6) && cuts.broken_count == 0 && cuts.turned_count == 0;
+           finest_moved_m <= finest_stated_m * (1 + 1e-6) && cuts.broken_count == 0 && cuts.turned_count == 0 &&
+           seams.wrong_count == 0;
 }
 
-Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, const ProofOptions& options,
+Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, const SeamBudget& seams, const ProofOptions& options,
             const std::function<void(double)>& progress) {
     Proof proof;
     proof.triangle_count = source.faces.size();
@@ -91,7 +92,8 @@ Proof prove(const Hierarchy& hierarchy, const mesh::Mesh& source, const ProofOpt
     proof.finest_stated_m = double(hierarchy.finest_error_m);
     proof.finest_moved_m = farthest_moved_m(hierarchy, source);
     progress(0.1);
-    proof.cuts = prove_cuts(hierarchy, options, [&](double share) { progress(0.1 + 0.9 * share); });
+    proof.cuts = prove_cuts(hierarchy, options, [&](double share) { progress(0.1 + 0.8 * share); });
+    proof.seams = prove_seams(hierarchy, seams, options, [&](double share) { progress(0.9 + 0.1 * share); });
     progress(1);
     return proof;
 }

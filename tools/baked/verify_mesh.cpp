@@ -3,6 +3,7 @@
 #include "formats/caveclod.h"
 #include "formats/numbers.h"
 #include "tools/bake/mesh_provenance.h"
+#include "tools/bake/mesh_textures.h"
 #include "tools/baked/prove_caveclod.h"
 #include "tools/baked/verbs.h"
 
@@ -30,7 +31,14 @@ ordered_json json_of(const caveclod::Proof& proof) {
               {"turned_faces", cuts.turned_count},
               {"greatest_share_of_promise_used", cuts.greatest_measured_share},
               {"median_stated_over_measured", cuts.median_stated_over_measured},
-              {"greatest_stated_over_measured", cuts.greatest_stated_over_measured}}}};
+              {"greatest_stated_over_measured", cuts.greatest_stated_over_measured}}},
+            {"seams",
+             {{"corners", proof.seams.corner_count},
+              {"carried", proof.seams.carried_count},
+              {"wrong", proof.seams.wrong_count},
+              {"uv_error_texels", proof.seams.worst.uv_texels},
+              {"normal_error_deg", proof.seams.worst.normal_deg},
+              {"shift_m", proof.seams.greatest_shift_m}}}};
 }
 
 void print_text(const caveclod::Proof& proof) {
@@ -48,6 +56,11 @@ void print_text(const caveclod::Proof& proof) {
                    cuts.first_broken_seed);
     fmt::print("{} of their {} faces are turned by more than 90 degrees from the source under them{}\n",
                with_commas(cuts.turned_count), with_commas(cuts.face_count), cuts.turned_count == 0 ? "" : "  BROKEN");
+    const caveclod::SeamsProof& seams = proof.seams;
+    fmt::print("{} of their {} corners carry attributes from up to {:.3g} m away, wrong by {:.2f} texels and {:.2f} degrees at the "
+               "most; {} beyond what is allowed{}\n",
+               with_commas(seams.carried_count), with_commas(seams.corner_count), seams.greatest_shift_m, seams.worst.uv_texels,
+               seams.worst.normal_deg, with_commas(seams.wrong_count), seams.wrong_count == 0 ? "" : "  BROKEN");
     fmt::print("{}\n", proof.holds() ? "every promise holds" : "a promise is broken");
 }
 
@@ -76,8 +89,10 @@ int verify_mesh(const VerifyArgs& args, const container::Reader& file, const com
     caveclod::ProofOptions options;
     options.cut_count = args.cuts;
     options.seed = common.seed;
+    caveclod::SeamBudget seams = choices->bake.simplify.seams;
+    seams.texture_px = mesh::texture_sizes_px(source->mesh);
     caveclod::Proof proof =
-        caveclod::prove(*hierarchy, source->mesh, options, [&](double done) { progress.set(done); });
+        caveclod::prove(*hierarchy, source->mesh, seams, options, [&](double done) { progress.set(done); });
     if (common.json)
         fmt::print("{}\n", json_of(proof).dump(2));
     else

@@ -4,6 +4,7 @@
 #include "runtime/command/command.h"
 #include "tools/make_sample/sample_dem.h"
 #include "tools/make_sample/sample_lod_sprite.h"
+#include "tools/make_sample/sample_objects.h"
 #include "tools/make_sample/sample_slopes.h"
 #include "tools/make_sample/sample_terrains.h"
 
@@ -43,9 +44,8 @@ int make_lod_sprite(const sample::LodSpriteOptions& options, const std::string& 
     return int(Exit::done);
 }
 
-int make_slopes(const std::string& folder, const command::Common& common) {
-    Result<std::vector<std::string>> files = sample::make_slopes(folder);
-    if (!files) return command::fail("make-sample slopes", files.error());
+int say_files(const std::string& name, const Result<std::vector<std::string>>& files, const command::Common& common) {
+    if (!files) return command::fail("make-sample " + name, files.error());
     for (const std::string& file : *files) command::note(common, "wrote " + file);
     if (common.json) fmt::print("{}\n", nlohmann::ordered_json({{"files", *files}}).dump(2));
     return int(Exit::done);
@@ -104,6 +104,15 @@ int main(int argc, char** argv) {
     slopes->add_option("-o,--output", folder, "Folder to write into")->required();
     command::add_common(*slopes, common);
 
+    std::vector<CLI::App*> objects;
+    for (const auto& [name, what] :
+         {std::pair("vase", "A fluted vase to fly round: vase.obj, vase.mtl, scene.json, flight.json"),
+          std::pair("masts", "Thin masts and railings on a ground: masts.obj, masts.mtl, scene.json, flight.json")}) {
+        objects.push_back(app.add_subcommand(name, what));
+        objects.back()->add_option("-o,--output", folder, "Folder to write into")->required();
+        command::add_common(*objects.back(), common);
+    }
+
     const std::string writes = "mesh (OBJ), textures, recipe.toml, scene.json, flight-a.json to flight-d.json";
     std::vector<CLI::App*> terrains;
     std::string source;
@@ -120,7 +129,9 @@ int main(int argc, char** argv) {
     }
 
     return command::run(app, common, argc, argv, [&] {
-        if (slopes->parsed()) return make_slopes(folder, common);
+        if (slopes->parsed()) return say_files("slopes", sample::make_slopes(folder), common);
+        for (const CLI::App* object : objects)
+            if (object->parsed()) return say_files(object->get_name(), sample::make_object(object->get_name(), folder), common);
         for (const CLI::App* terrain : terrains)
             if (terrain->parsed()) return make_mesh(terrain->get_name(), common.seed, source, folder, common);
         if (lod_sprite->parsed()) {

@@ -168,6 +168,11 @@ Case for_meshes(Case each) {
     return each;
 }
 
+bool is_of_meshes_alone(const Case& each) {
+    auto is_of_mesh = [](const std::string& method) { return is_one_of(kMeshMethods, method); };
+    return !each.runs.empty() && std::all_of(each.runs.begin(), each.runs.end(), is_of_mesh);
+}
+
 std::span<const std::string_view> figure_names() {
     return kFigures;
 }

@@ -59,6 +59,9 @@ struct Case {
 // The case as methods that draw meshes fly it.
 Case for_meshes(Case each);
 
+// Whether it runs for methods that draw meshes and for no others.
+bool is_of_meshes_alone(const Case& each);
+
 // The names of the figures that a gate may hold.
 std::span<const std::string_view> figure_names();
 

@@ -10,17 +10,17 @@
 namespace overlook::caveclod {
 namespace {
 
-Hierarchy baked(const mesh::Mesh& mesh) {
+Hierarchy baked(const mesh::Mesh& mesh, const BakeOptions& options = {}) {
     BakeReport report;
-    auto hierarchy = bake(mesh, {}, report, [](double) {});
+    auto hierarchy = bake(mesh, options, report, [](double) {});
     EXPECT_TRUE(hierarchy) << hierarchy.error().message;
     return *hierarchy;
 }
 
-Proof proof_of(const Hierarchy& hierarchy, const mesh::Mesh& mesh) {
+Proof proof_of(const Hierarchy& hierarchy, const mesh::Mesh& mesh, const SeamBudget& seams = {}) {
     ProofOptions options;
     options.cut_count = 40;
-    return prove(hierarchy, mesh, options, [](double) {});
+    return prove(hierarchy, mesh, seams, options, [](double) {});
 }
 
 TEST(MeshProof, HoldsForWhatWasBaked) {
@@ -95,6 +95,75 @@ TEST(MeshProof, FindsABrokenLaw) {
     Hierarchy hierarchy = baked(mesh);
     std::swap(hierarchy.error_m.front(), hierarchy.error_m.back());
     EXPECT_NE(proof_of(hierarchy, mesh).broken_law, "");
+}
+
+BakeOptions budgeted(double crease_deg, double uv_texels) {
+    BakeOptions options;
+    options.groups.crease_deg = crease_deg;
+    options.simplify.seams.moves = true;
+    options.simplify.seams.uv_texels = uv_texels;
+    return options;
+}
+
+TEST(SeamsProof, FindsNoCornerBesideTheSourcesOwnUnderTheStrictRule) {
+    BakeOptions options;
+    options.groups.crease_deg = 40;
+    for (const mesh::Mesh& mesh : {test::seamed_cylinder(64, 8), test::cube(6)}) {
+        Proof proof = proof_of(baked(mesh, options), mesh);
+        EXPECT_TRUE(proof.holds());
+        EXPECT_EQ(proof.seams.carried_count, 0u);
+        EXPECT_GT(proof.seams.corner_count, 0u);
+    }
+}
+
+TEST(SeamsProof, FacetsGoWhereSeamsMoveAndEveryPromiseHolds) {
+    mesh::Mesh mesh = test::sphere(40, 20);
+    BakeOptions strict;
+    strict.groups.crease_deg = 0;
+    BakeOptions moving = budgeted(0, 1);
+    Hierarchy held = baked(mesh, strict), moved = baked(mesh, moving);
+    EXPECT_GT(held.base_face_count, mesh.faces.size() * 9 / 10);
+    EXPECT_LT(moved.base_face_count, mesh.faces.size() / 10);
+    Proof proof = proof_of(moved, mesh, moving.simplify.seams);
+    EXPECT_TRUE(proof.holds()) << proof.broken_law << proof.seams.wrong_count;
+    EXPECT_GT(proof.seams.carried_count, 0u);
+    EXPECT_GT(proof.seams.greatest_shift_m, 0);
+}
+
+TEST(SeamsProof, FindsCornersBeyondABudgetThatIsTooSmall) {
+    mesh::Mesh mesh = test::sphere(48, 24, 0.05);
+    BakeOptions options = budgeted(15, 1);
+    options.simplify.seams.normal_deg = 40;
+    Hierarchy hierarchy = baked(mesh, options);
+    Proof proof = proof_of(hierarchy, mesh, options.simplify.seams);
+    EXPECT_TRUE(proof.holds());
+    ASSERT_GT(proof.seams.worst.normal_deg, 2);
+    SeamBudget smaller = options.simplify.seams;
+    smaller.normal_deg = 0.5;
+    EXPECT_GT(proof_of(hierarchy, mesh, smaller).seams.wrong_count, 0u);
+    EXPECT_FALSE(proof_of(hierarchy, mesh, smaller).holds());
+    EXPECT_EQ(proof_of(hierarchy, mesh).seams.wrong_count, proof.seams.carried_count) << "none is right under the strict rule";
+}
+
+TEST(SeamsProof, FindsSeamsThatMovedFartherThanStated) {
+    mesh::Mesh mesh = test::sphere(40, 20);
+    BakeOptions options = budgeted(0, 1);
+    Hierarchy hierarchy = baked(mesh, options);
+    for (float& error_m : hierarchy.error_m) error_m *= 0.2f;
+    EXPECT_GT(proof_of(hierarchy, mesh, options.simplify.seams).seams.wrong_count, 0u);
+}
+
+TEST(SeamsProof, BudgetsAreKeptInWhatTheBakerReports) {
+    mesh::Mesh mesh = test::seamed_cylinder(64, 16);
+    for (double texels : {4.0, 40.0, 200.0}) {
+        BakeOptions options = budgeted(180, texels);
+        BakeReport report;
+        ASSERT_TRUE(bake(mesh, options, report, [](double) {}));
+        EXPECT_LE(report.simplify.seam_error.uv_texels, texels);
+        EXPECT_LE(report.simplify.seam_error.normal_deg, 10);
+        EXPECT_LE(report.simplify.greatest_seam_shift_m, report.simplify.greatest_error_m * (1 + 1e-6));
+        EXPECT_LE(report.budgeted_floor_face_estimate, report.floor_face_estimate);
+    }
 }
 
 TEST(MeshChoices, ComeBackFromTheirWords) {

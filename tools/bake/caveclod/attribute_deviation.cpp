@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/bake/caveclod/distances.h"
+
 namespace overlook::caveclod {
 namespace {
 
 // Metres for each metre that the texture slides, and for each radian and each whole step of colour over a metre of width.
 constexpr double kTexture = 0.5, kNormal = 1.0 / 16, kColour = 1.0 / 8;
-
-// Weights of a triangle's corners at the point of its plane nearest to p, drawn into the triangle.
-glm::dvec3 weights_at(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    glm::dvec3 normal = glm::cross(b - a, c - a);
-    double normal2 = glm::dot(normal, normal);
-    if (!(normal2 > 0)) return {1, 0, 0};
-    glm::dvec3 weights(glm::dot(glm::cross(c - b, p - b), normal), glm::dot(glm::cross(a - c, p - c), normal),
-                       glm::dot(glm::cross(b - a, p - a), normal));
-    weights = glm::max(weights / normal2, glm::dvec3(0));
-    return weights / (weights.x + weights.y + weights.z);
-}
 
 glm::dvec3 colour_of(const RenderVertex& v) {
     return glm::dvec3(v.colour[0], v.colour[1], v.colour[2]) / 255.0;
@@ -35,10 +26,10 @@ double metres_per_uv(const RenderVertex& a, const RenderVertex& b, const RenderV
 
 double attribute_deviation_m(const WorkingMesh& mesh, const Fan& fan, const TurnedVertices& turned, uint32_t place) {
     uint32_t corner = fan.corner[place];
-    const RenderVertex& was = mesh.render_vertices[mesh.vertex(corner)];
-    const RenderVertex& a = mesh.render_vertices[turned[place]];
-    const RenderVertex& b = mesh.render_vertices[mesh.vertex(next_corner(corner))];
-    const RenderVertex& c = mesh.render_vertices[mesh.vertex(previous_corner(corner))];
+    const RenderVertex& was = mesh.look(mesh.vertex(corner));
+    const RenderVertex& a = mesh.look(turned[place]);
+    const RenderVertex& b = mesh.look(mesh.vertex(next_corner(corner)));
+    const RenderVertex& c = mesh.look(mesh.vertex(previous_corner(corner)));
     glm::dvec3 at_a = mesh.at(fan.kept), at_b = mesh.at(fan.link[place]), at_c = mesh.at(fan.link[place + 1]);
     glm::dvec3 w = weights_at(mesh.at(fan.gone), at_a, at_b, at_c);
     double area2_m2 = glm::length(glm::cross(at_b - at_a, at_c - at_a)), width_m = std::sqrt(area2_m2);

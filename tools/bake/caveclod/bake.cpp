@@ -1,6 +1,11 @@
 #include "tools/bake/caveclod/bake.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "tools/bake/caveclod/cut.h"
+#include "tools/bake/caveclod/hierarchy_rows.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -18,6 +23,7 @@ void note_groups(const Groups& groups, BakeReport& report) {
     report.dense_bytes = groups.dense_bytes;
     report.rows_bytes = groups.rows_bytes;
     report.floor_face_estimate = groups.floor_face_estimate;
+    report.budgeted_floor_face_estimate = groups.budgeted_floor_face_estimate;
 }
 
 // The mesh with its positions where they will be stored, and how far that moved them: what is measured and judged from here on is
@@ -32,15 +38,34 @@ mesh::Mesh on_grid(const mesh::Mesh& mesh, const Precision& precision, Grid& gri
     return moved;
 }
 
+void note_floor(const Hierarchy& hierarchy, BakeReport& report) {
+    glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
+    for (const glm::vec3& p : hierarchy.positions_m) low = glm::min(low, glm::dvec3(p)), high = glm::max(high, glm::dvec3(p));
+    report.size_m = hierarchy.positions_m.empty() ? 0 : glm::length(high - low);
+    report.face_count_at_one_percent = face_count_at(hierarchy, 0.01 * report.size_m);
+}
+
+// The looks as they will be stored: what seams may cost is measured on what will be drawn.
+void store_looks(const mesh::Mesh& mesh, const Precision& precision, Groups& groups, Quantised& quantised) {
+    Hierarchy looks;
+    looks.vertices = std::move(groups.vertices);
+    looks.attributes = attributes_of(mesh);
+    quantised = quantise(looks, precision);
+    groups.vertices = std::move(looks.vertices);
+}
+
 }  // namespace
 
 Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeReport& report,
-                       const std::function<void(double)>& progress) {
+                       const std::function<void(double)>& progress, const std::function<void()>& on_floors) {
     report.source_face_count = mesh.faces.size();
     report.source_position_count = mesh.positions_m.size();
     auto groups = find_groups(mesh, options.groups);
     if (!groups) return tl::unexpected(groups.error());
     note_groups(*groups, report);
+    on_floors();
+    Quantised looks;
+    if (options.simplify.seams.moves) store_looks(mesh, options.precision, *groups, looks);
     progress(kGrouped);
     Grid grid;
     double moved_m = 0;
@@ -54,9 +79,12 @@ Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeR
     hierarchy->grid = grid;
     report.quantised = quantise(*hierarchy, options.precision);
     report.quantised.position_m = moved_m;
+    report.quantised.normal_deg = std::max(report.quantised.normal_deg, looks.normal_deg);
+    report.quantised.uv = std::max(report.quantised.uv, looks.uv);
     add_displacement(*hierarchy, report.quantised.position_m + options.source_rounding_m);
     if (auto completed = complete(*hierarchy); !completed) return tl::unexpected(completed.error());
     round_errors(*hierarchy);
+    note_floor(*hierarchy, report);
     progress(1);
     return hierarchy;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "formats/parallel.h"
+#include "tools/bake/caveclod/seam_error.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -94,26 +95,31 @@ std::vector<Quadric> make_quadrics(const WorkingMesh& mesh) {
     return quadrics;
 }
 
-Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position) {
+Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position, double above_m) {
     Choices choices;
     if (!estimate(mesh, quadrics[position], position, choices)) return {};
     Fan fan;
     TurnedVertices turned;
+    Candidate best{std::numeric_limits<double>::infinity(), kNone, 0};
     for (uint32_t tries = 0; tries < choices.count; ++tries) {
         uint32_t at = cheapest(choices);
-        bool is_allowed = fan_of(choices.star, position, at, fan) && keeps_groups(mesh, fan, turned) &&
+        double bare_m = std::sqrt(choices.cost2[at]);
+        if (bare_m >= best.cost_m) break;
+        bool is_allowed = bare_m > above_m && fan_of(choices.star, position, at, fan) && keeps_groups(mesh, fan, turned) &&
                           keeps_orientation(mesh, fan) && keeps_topology(mesh, fan);
-        if (is_allowed) return {std::sqrt(choices.cost2[at]), choices.star.link[at]};
         choices.cost2[at] = std::numeric_limits<double>::infinity();
+        if (!is_allowed) continue;
+        double cost_m = std::max(bare_m, seam_shift_m(mesh, fan, turned));
+        if (cost_m < best.cost_m) best = {cost_m, choices.star.link[at], bare_m};
     }
-    return {};
+    return best;
 }
 
 Candidate guess_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position) {
     Choices choices;
     if (!estimate(mesh, quadrics[position], position, choices)) return {};
     uint32_t at = cheapest(choices);
-    return {std::sqrt(choices.cost2[at]), choices.star.link[at]};
+    return {std::sqrt(choices.cost2[at]), choices.star.link[at], std::sqrt(choices.cost2[at])};
 }
 
 }  // namespace overlook::caveclod

@@ -26,11 +26,13 @@ std::vector<Quadric> make_quadrics(const WorkingMesh& mesh);
 struct Candidate {
     double cost_m = 0;
     uint32_t kept = kNone;  // none is allowed
+    double bare_cost_m = 0;  // without what its seams shift
 };
 
 // The allowed collapse of `position` of least cost: the mean square of the kept position's distances to the planes of what has
-// gone into `position`, and the square of the mean signed offset of the new faces (the volume they lose or win, over their area).
-Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position);
+// gone into `position`, and the square of the mean signed offset of the new faces (the volume they lose or win, over their area);
+// never less than its seams shift. Only those whose bare cost is above `above_m` are looked at: what lies below was refused.
+Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position, double above_m = -1);
 
 // The same, of all its edges, allowed or not: never dearer than find_candidate's, and several times faster found. None where the
 // position may not go at all.

@@ -26,11 +26,14 @@ bool is_far_corner(const Fan& fan, uint32_t position) {
     return (first_goes(fan) && fan.link[1] == position) || (last_goes(fan) && fan.link[fan.count - 1] == position);
 }
 
-// Closed curves of three feature edges that the collapse would fold to one edge, walked there and back.
+// Closed curves of three feature edges that the collapse would fold to one edge, walked there and back. Where seams move only
+// those of the border count.
 bool folds_feature_curve(const WorkingMesh& mesh, const Fan& fan) {
-    auto folds = [&](uint32_t going, uint32_t spoke_side) {
-        return mesh.is_feature[mesh.edge(spoke_side)] && mesh.is_feature[mesh.edge(fan.corner[going])];
+    auto bounds = [&](uint32_t corner) {
+        uint32_t edge = mesh.edge(corner);
+        return mesh.seams_move ? mesh.edge_corners[edge][1] == kNone : mesh.is_feature[edge] != 0;
     };
+    auto folds = [&](uint32_t going, uint32_t spoke_side) { return bounds(spoke_side) && bounds(fan.corner[going]); };
     uint32_t last = fan.count - 1;
     return (first_goes(fan) && folds(0, next_corner(fan.corner[0]))) ||
            (last_goes(fan) && folds(last, previous_corner(fan.corner[last])));
@@ -72,16 +75,36 @@ bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turne
     };
     if (first_goes(fan)) add(fan.corner[0], next_corner(fan.corner[0]));
     if (last_goes(fan)) add(fan.corner[last], previous_corner(fan.corner[last]));
-    if (count == 2 && pairs[0].from == pairs[1].from && pairs[0].group == pairs[1].group && pairs[0].to != pairs[1].to)
-        return false;
+    if (count == 2 && pairs[0].from == pairs[1].from && pairs[0].group == pairs[1].group && pairs[0].to != pairs[1].to) {
+        if (!mesh.seams_move) return false;
+        count = 0;
+    }
     for (uint32_t i = fan.first; i <= fan.last; ++i) {
         uint32_t corner = fan.corner[i], group = mesh.face_group[corner / kCorners], vertex = mesh.vertex(corner);
         auto pair = std::find_if(pairs.begin(), pairs.begin() + count,
                                  [&](const Pair& p) { return p.from == vertex && p.group == group; });
-        if (pair == pairs.begin() + count) return false;
-        turned[i] = pair->to;
+        bool is_there = pair != pairs.begin() + count;
+        if (!is_there && !mesh.seams_move) return false;
+        turned[i] = is_there ? pair->to : vertex | kCarried;
     }
     return true;
+}
+
+Hindrance hindrance_of(const WorkingMesh& mesh, uint32_t position) {
+    if (mesh.kind[position] == PositionKind::rigid) return Hindrance::fixed;
+    Star star;
+    if (!gather_star(mesh, position, star)) return Hindrance::topology;
+    Hindrance farthest = Hindrance::seams;
+    for (uint32_t at = 0; at < star.count + uint32_t(!star.is_closed); ++at) {
+        Fan fan;
+        TurnedVertices turned;
+        if (!fan_of(star, position, at, fan) || !keeps_groups(mesh, fan, turned)) continue;
+        Hindrance here = !keeps_topology(mesh, fan)      ? Hindrance::topology
+                         : !keeps_orientation(mesh, fan) ? Hindrance::orientation
+                                                         : Hindrance::measured;
+        farthest = std::max(farthest, here);
+    }
+    return farthest;
 }
 
 bool keeps_orientation(const WorkingMesh& mesh, const Fan& fan) {

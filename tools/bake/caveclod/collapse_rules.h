@@ -17,11 +17,23 @@ bool keeps_topology(const WorkingMesh& mesh, const Fan& fan);
 
 // The rules of Kram and Shaw 2002, 3.3, by wedge: a free position may go anywhere, a sharp one along a feature edge only (of
 // which the other end is then sharp or rigid), a rigid one nowhere; and every turned corner finds at the kept position a render
-// vertex of its own group that its own render vertex shares a going face with. Fills `turned` if so.
+// vertex of its own group that its own render vertex shares a going face with. Fills `turned` if so. Where seams move, only rigid
+// ones are held, and a corner that finds none carries its attributes along (kCarried).
 bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turned);
 
 // Whether no turned face degenerates (as seen in float32) or turns its normal by more than about 75 degrees; one that had no area
 // may do as it likes.
 bool keeps_orientation(const WorkingMesh& mesh, const Fan& fan);
+
+// The rule that the collapse of a position comes to, taking of all its edges the one that comes farthest.
+enum class Hindrance : uint8_t {
+    fixed,        // the position must stay
+    seams,        // keeps_groups
+    topology,     // keeps_topology, or too many faces
+    orientation,  // keeps_orientation
+    measured      // none of these: what was measured of it was refused
+};
+constexpr size_t kHindranceCount = 5;
+Hindrance hindrance_of(const WorkingMesh& mesh, uint32_t position);
 
 }  // namespace overlook::caveclod

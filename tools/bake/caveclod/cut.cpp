@@ -72,6 +72,13 @@ double stated_error_m(const Hierarchy& h, const Applied& applied) {
     return error_m;
 }
 
+uint64_t face_count_at(const Hierarchy& h, double error_m) {
+    uint64_t count = h.base_face_count;
+    for (uint32_t i = 0; i < h.split_count(); ++i)
+        if (double(h.error_m[i]) > error_m || double(h.finest_error_m) > error_m) count += added_count(h, i);
+    return count;
+}
+
 Applied random_cut(const Hierarchy& h, uint64_t face_count, uint64_t seed) {
     std::mt19937_64 random(seed);
     auto share = [&] { return double(random() >> 11) * 0x1p-53; };

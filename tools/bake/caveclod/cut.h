@@ -26,6 +26,9 @@ CutFaces faces_of(const Hierarchy& hierarchy, const Applied& applied);
 // The promise: the greatest error of a split that is not applied; finest_error_m if all are.
 double stated_error_m(const Hierarchy& hierarchy, const Applied& applied);
 
+// How many faces the coarsest cut has whose stated error is at most error_m; the finest cut's where none keeps it.
+uint64_t face_count_at(const Hierarchy& hierarchy, double error_m);
+
 // About face_count faces, unevenly fine: refined by error times a weight that falls off from a random place, so that fine and
 // coarse meet anywhere. Same seed, same cut. O(S log S).
 Applied random_cut(const Hierarchy& hierarchy, uint64_t face_count, uint64_t seed);

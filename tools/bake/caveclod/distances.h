@@ -56,4 +56,15 @@ inline double nearest_share(const glm::dvec3& a, const glm::dvec3& b, const glm:
     return std::clamp((uv * t - uw) / uu, 0.0, 1.0);
 }
 
+// Weights of a triangle's corners at the point of its plane nearest to p, drawn into the triangle.
+inline glm::dvec3 weights_at(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    glm::dvec3 normal = glm::cross(b - a, c - a);
+    double normal2 = glm::dot(normal, normal);
+    if (!(normal2 > 0)) return {1, 0, 0};
+    glm::dvec3 weights(glm::dot(glm::cross(c - b, p - b), normal), glm::dot(glm::cross(a - c, p - c), normal),
+                       glm::dot(glm::cross(b - a, p - a), normal));
+    weights = glm::max(weights / normal2, glm::dvec3(0));
+    return weights / (weights.x + weights.y + weights.z);
+}
+
 }  // namespace overlook::caveclod

@@ -176,6 +176,7 @@ Result<Groups> find_groups(const mesh::Mesh& mesh, const GroupOptions& options) 
     fill_figures(at, groups);
     groups.fixed_face_count = count_fixed_faces(mesh.faces, groups);
     groups.floor_face_estimate = least_face_count(mesh.faces, edges, groups);
+    groups.budgeted_floor_face_estimate = least_face_count(mesh.faces, edges, with_borders_alone(groups));
     return groups;
 }
 

@@ -50,6 +50,7 @@ struct Groups {
     uint32_t clique_bound = 0;  // that many groups share a position pairwise: fewer ids cannot do
 
     std::vector<PositionKind> kind;       // [P]
+    std::vector<uint8_t> is_fixed;        // [P] rigid for a reason that no seam budget lifts: any but where boundaries meet or end
     std::vector<FeatureEdge> features;    // sorted by a, then b, each edge once
     std::vector<uint32_t> feature_begin;  // [P+1] rows over `feature_ends`
     std::vector<uint32_t> feature_ends;   // the other ends of the feature edges at each position, ascending
@@ -72,6 +73,7 @@ struct Groups {
     uint64_t free_count = 0, sharp_count = 0, rigid_count = 0;
     uint64_t fixed_face_count = 0;     // faces whose three corners are rigid: none of them ever goes under the strict rule
     uint64_t floor_face_estimate = 0;  // so many faces stay at least, topology kept: see least_face_count
+    uint64_t budgeted_floor_face_estimate = 0;  // the same where all boundaries but borders may move, as far as they like
 };
 
 // Finds all of it. mesh: as the input gives it (ids in range, no face with two equal corners, pools finite); what it lacks counts

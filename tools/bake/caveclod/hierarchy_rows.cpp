@@ -40,36 +40,110 @@ Numbering number(const WorkingMesh& coarsest, const CollapseLog& log) {
     return made;
 }
 
-void fill_vertices(const Groups& groups, const WorkingMesh& coarsest, const Numbering& numbering, Hierarchy& h) {
-    h.vertices.reserve(groups.vertices.size());
+// The render vertices of every position: the source's own, then those whose attributes corners have carried there.
+class VertexRows {
+  public:
+    VertexRows(const Groups& groups, const WorkingMesh& coarsest, const CollapseLog& log) : groups_(groups), mesh_(coarsest) {
+        for (size_t c = 0; c < log.gone.size(); ++c)
+            for (uint32_t t = log.turn_begin[c]; t < log.turn_begin[c + 1]; ++t)
+                if (!goes(log.turns[t]) && (log.turns[t].to_vertex & kCarried) != 0)
+                    carried_.push_back({log.kept[c], log.turns[t].to_vertex});
+        std::sort(carried_.begin(), carried_.end());
+        carried_.erase(std::unique(carried_.begin(), carried_.end()), carried_.end());
+        offset_.resize(carried_.size());
+        for (size_t begin = 0, end = 0; begin < carried_.size(); begin = end) {
+            while (end < carried_.size() && carried_[end].position == carried_[begin].position) ++end;
+            lay_row(begin, end);
+        }
+    }
+
+    // The first position with more render vertices than a row may hold, or kNone.
+    uint32_t overfull() const { return overfull_; }
+
+    void append(uint32_t position, std::vector<RenderVertex>& vertices) const {
+        uint32_t source = mesh_.source_position[position];
+        vertices.insert(vertices.end(), groups_.vertices.begin() + groups_.vertex_begin[source],
+                        groups_.vertices.begin() + groups_.vertex_begin[source + 1]);
+        uint32_t count = own_count(position);
+        for (size_t i = first_at(position); i < carried_.size() && carried_[i].position == position; ++i) {
+            if (offset_[i] != count) continue;
+            vertices.push_back(mesh_.look(carried_[i].vertex));
+            ++count;
+        }
+    }
+
+    uint16_t offset_of(uint32_t position, uint32_t vertex) const {
+        if ((vertex & kCarried) == 0) return uint16_t(vertex - groups_.vertex_begin[groups_.vertices[vertex].position]);
+        auto found = std::lower_bound(carried_.begin(), carried_.end(), Carried{position, vertex});
+        return uint16_t(offset_[size_t(found - carried_.begin())]);
+    }
+
+  private:
+    struct Carried {
+        uint32_t position = 0, vertex = 0;
+        auto operator<=>(const Carried&) const = default;
+    };
+
+    uint32_t own_count(uint32_t position) const {
+        uint32_t source = mesh_.source_position[position];
+        return groups_.vertex_begin[source + 1] - groups_.vertex_begin[source];
+    }
+    size_t first_at(uint32_t position) const {
+        return size_t(std::lower_bound(carried_.begin(), carried_.end(), Carried{position, 0}) - carried_.begin());
+    }
+
+    // Looks that are equal share one render vertex: the first that has it, the position's own before those carried there.
+    void lay_row(size_t begin, size_t end) {
+        uint32_t position = carried_[begin].position;
+        std::vector<RenderVertex> row;
+        append_own(position, row);
+        for (size_t i = begin; i < end; ++i) {
+            RenderVertex look = mesh_.look(carried_[i].vertex);
+            look.position = 0;
+            auto same = std::find(row.begin(), row.end(), look);
+            offset_[i] = uint32_t(same - row.begin());
+            if (same == row.end()) row.push_back(look);
+        }
+        if (row.size() > kMostWedges && overfull_ == kNone) overfull_ = position;
+    }
+    void append_own(uint32_t position, std::vector<RenderVertex>& row) const {
+        uint32_t source = mesh_.source_position[position];
+        for (uint32_t v = groups_.vertex_begin[source]; v < groups_.vertex_begin[source + 1]; ++v) {
+            row.push_back(groups_.vertices[v]);
+            row.back().position = 0;
+        }
+    }
+
+    const Groups& groups_;
+    const WorkingMesh& mesh_;
+    std::vector<Carried> carried_;  // ascending
+    std::vector<uint32_t> offset_;  // of each in its position's row
+    uint32_t overfull_ = kNone;
+};
+
+void fill_vertices(const VertexRows& rows, const Numbering& numbering, Hierarchy& h) {
     h.vertex_begin.push_back(0);
     for (uint32_t p = 0; p < numbering.old_position.size(); ++p) {
-        uint32_t old = coarsest.source_position[numbering.old_position[p]];
-        for (uint32_t v = groups.vertex_begin[old]; v < groups.vertex_begin[old + 1]; ++v) {
-            h.vertices.push_back(groups.vertices[v]);
-            h.vertices.back().position = p;
-        }
+        rows.append(numbering.old_position[p], h.vertices);
+        for (size_t v = h.vertex_begin.back(); v < h.vertices.size(); ++v) h.vertices[v].position = p;
         h.vertex_begin.push_back(uint32_t(h.vertices.size()));
     }
 }
 
-uint16_t offset_of(const Groups& groups, uint32_t vertex) {
-    return uint16_t(vertex - groups.vertex_begin[groups.vertices[vertex].position]);
-}
-
-void fill_faces(const Groups& groups, const WorkingMesh& coarsest, const Numbering& numbering, Hierarchy& h) {
+void fill_faces(const VertexRows& rows, const WorkingMesh& coarsest, const Numbering& numbering, Hierarchy& h) {
     for (uint32_t old : numbering.old_face) {
         std::array<uint32_t, 3> positions;
         for (uint32_t c = 0; c < 3; ++c) {
-            positions[c] = numbering.position[coarsest.position(old * kCorners + c)];
-            h.birth_wedge.push_back(offset_of(groups, coarsest.vertex(old * kCorners + c)));
+            uint32_t position = coarsest.position(old * kCorners + c);
+            positions[c] = numbering.position[position];
+            h.birth_wedge.push_back(rows.offset_of(position, coarsest.vertex(old * kCorners + c)));
         }
         h.face_positions.push_back(positions);
         h.face_group.push_back(coarsest.face_group[old]);
     }
 }
 
-void fill_splits(const Groups& groups, const CollapseLog& log, const Numbering& numbering, Hierarchy& h) {
+void fill_splits(const VertexRows& rows, const CollapseLog& log, const Numbering& numbering, Hierarchy& h) {
     uint32_t face_count = h.base_face_count;
     h.added_begin.push_back(face_count);
     h.moved_begin.push_back(0);
@@ -87,8 +161,8 @@ void fill_splits(const Groups& groups, const CollapseLog& log, const Numbering& 
         std::sort(row.begin(), row.end(), [](const Turn& a, const Turn& b) { return a.corner < b.corner; });
         for (const Turn& turn : row) {
             h.moved.push_back(turn.corner);
-            h.moved_wedge.push_back(offset_of(groups, turn.from_vertex));
-            h.moved_back_wedge.push_back(offset_of(groups, turn.to_vertex));
+            h.moved_wedge.push_back(rows.offset_of(log.gone[c], turn.from_vertex));
+            h.moved_back_wedge.push_back(rows.offset_of(log.kept[c], turn.to_vertex));
         }
         h.owner.push_back(numbering.position[log.kept[c]]);
         h.error_m.push_back(log.error_m[c]);
@@ -163,12 +237,16 @@ void fill_surfaces(const mesh::Mesh& mesh, Hierarchy& h) {
         to.is_two_sided = from.is_two_sided;
         h.surfaces.push_back(std::move(to));
     }
-    h.attributes = {true, !mesh.uvs.empty(), !mesh.colours.empty()};
+    h.attributes = attributes_of(mesh);
 }
 
 }  // namespace
 
-Hierarchy make_rows(const mesh::Mesh& mesh, const Groups& groups, const WorkingMesh& coarsest, const CollapseLog& log) {
+Result<Hierarchy> make_rows(const mesh::Mesh& mesh, const Groups& groups, const WorkingMesh& coarsest, const CollapseLog& log) {
+    VertexRows rows(groups, coarsest, log);
+    if (rows.overfull() != kNone)
+        return bad_input("position {} would have more than {} render vertices; bake with --seams strict",
+                         coarsest.source_position[rows.overfull()], kMostWedges);
     Numbering numbering = number(coarsest, log);
     Hierarchy h;
     h.origin_m = mesh.origin_m;
@@ -179,16 +257,20 @@ Hierarchy make_rows(const mesh::Mesh& mesh, const Groups& groups, const WorkingM
     // Each fills fields of its own.
     parallel_ranges(3, 1, [&](size_t part, size_t) {
         if (part == 0) {
-            fill_splits(groups, log, numbering, h);
+            fill_splits(rows, log, numbering, h);
             fill_needs(numbering.face.size(), h);
         }
-        if (part == 1) fill_faces(groups, coarsest, numbering, h);
-        if (part == 2) fill_vertices(groups, coarsest, numbering, h);
+        if (part == 1) fill_faces(rows, coarsest, numbering, h);
+        if (part == 2) fill_vertices(rows, numbering, h);
     });
     h.group_surface = groups.group_surface;
     h.group_packed = groups.group_packed;
     fill_surfaces(mesh, h);
     return h;
+}
+
+Attributes attributes_of(const mesh::Mesh& mesh) {
+    return {true, !mesh.uvs.empty(), !mesh.colours.empty()};
 }
 
 uint32_t depth_of(const Hierarchy& h) {

@@ -1,6 +1,7 @@
 #include "tools/bake/caveclod/position_kinds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "tools/bake/caveclod/disjoint_sets.h"
@@ -81,15 +82,31 @@ void classify_positions(Corners faces, const MeshEdges& edges, std::span<const u
         if (edges.is_tangled[edge]) must_stay[value_at(faces, edge)] = must_stay[value_at(faces, next_corner(edge))] = 1;
 
     groups.kind.assign(position_count, PositionKind::rigid);
+    groups.is_fixed.assign(position_count, 0);
     for (uint32_t position = 0; position < position_count; ++position) {
         uint32_t feature_count = groups.feature_begin[position + 1] - groups.feature_begin[position];
-        if (must_stay[position] || fans[position] != 1) continue;
+        groups.is_fixed[position] = must_stay[position] != 0 || fans[position] != 1;
+        if (groups.is_fixed[position] != 0) continue;
         if (feature_count == 0) groups.kind[position] = PositionKind::free;
         if (feature_count == 2) groups.kind[position] = PositionKind::sharp;
     }
     groups.free_count = uint64_t(std::count(groups.kind.begin(), groups.kind.end(), PositionKind::free));
     groups.sharp_count = uint64_t(std::count(groups.kind.begin(), groups.kind.end(), PositionKind::sharp));
     groups.rigid_count = groups.kind.size() - groups.free_count - groups.sharp_count;
+}
+
+Groups with_borders_alone(const Groups& groups) {
+    Groups alone;
+    auto is_border = [](const FeatureEdge& feature) { return feature.kind == FeatureKind::border; };
+    std::copy_if(groups.features.begin(), groups.features.end(), std::back_inserter(alone.features), is_border);
+    lay_feature_rows(uint32_t(groups.kind.size()), alone);
+    for (size_t p = 0; p < groups.kind.size(); ++p) {
+        bool is_on_border = alone.feature_begin[p + 1] > alone.feature_begin[p];
+        alone.kind.push_back(groups.is_fixed[p] != 0 ? PositionKind::rigid
+                             : is_on_border          ? PositionKind::sharp
+                                                     : PositionKind::free);
+    }
+    return alone;
 }
 
 }  // namespace overlook::caveclod

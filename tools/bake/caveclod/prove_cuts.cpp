@@ -55,10 +55,7 @@ uint64_t turned_count(const Hierarchy& h, const Source& source, const CutFaces& 
 }
 
 Measured measure(const Hierarchy& h, const Source& source, const ProofOptions& options, uint64_t i) {
-    // The golden ratio's multiples fill the range evenly, however many cuts are drawn.
-    double place = std::fmod(double(i + 1) * 0.6180339887498949, 1.0);
-    double share = options.least_share * std::pow(options.most_share / options.least_share, place);
-    Applied applied = random_cut(h, uint64_t(share * double(h.face_positions.size())) + 1, options.seed + i);
+    Applied applied = proof_cut(h, options, i);
     CutFaces cut = faces_of(h, applied);
     double stated_m = stated_error_m(h, applied);
     Distance distance = two_sided_distance(tree_of(h, cut), source.tree, 0.02, source.rounding_m, options.steps);
@@ -66,6 +63,13 @@ Measured measure(const Hierarchy& h, const Source& source, const ProofOptions& o
 }
 
 }  // namespace
+
+Applied proof_cut(const Hierarchy& h, const ProofOptions& options, uint64_t i) {
+    // The golden ratio's multiples fill the range evenly, however many cuts are drawn.
+    double place = std::fmod(double(i + 1) * 0.6180339887498949, 1.0);
+    double share = options.least_share * std::pow(options.most_share / options.least_share, place);
+    return random_cut(h, uint64_t(share * double(h.face_positions.size())) + 1, options.seed + i);
+}
 
 CutsProof prove_cuts(const Hierarchy& h, const ProofOptions& options, const std::function<void(double)>& progress) {
     CutFaces finest = faces_of(h, Applied(h.split_count(), 1));

@@ -24,6 +24,9 @@ struct CutsProof {
     double median_stated_over_measured = 0, greatest_stated_over_measured = 0;  // of cuts with a measurable distance
 };
 
+// The i-th of the cuts that a proof draws.
+Applied proof_cut(const Hierarchy& hierarchy, const ProofOptions& options, uint64_t i);
+
 // Draws the cuts and measures the two-sided distance of each to the finest cut, from below: a measured distance above the stated
 // error (by more than the rounding of positions) breaks the promise. The finest cut stands for the source, so finest_error_m is
 // not tried. Faces that are turned from that source (turned_faces.h) are counted. `progress` is called with the share done, 0..1,

@@ -23,23 +23,27 @@ Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, 
     SimplifyReport counted;
     auto working = [&] {
         Stopwatch watch(counted.topology_s);
-        return make_working_mesh(mesh, groups);
+        return make_working_mesh(mesh, groups, options.seams.moves);
     }();
     if (!working) return tl::unexpected(working.error());
     CollapseLog log;
-    Passes passes(*working, counted);
+    Passes passes(*working, options.seams, counted);
     while (passes.run(options.least_face_count, log)) progress(share_done(passes.face_count(), mesh.faces.size()));
-    Hierarchy hierarchy = [&] {
+    Result<Hierarchy> made = [&] {
         Stopwatch watch(counted.rows_s);
         return make_rows(mesh, groups, *working, log);
     }();
+    if (!made) return made;
+    Hierarchy& hierarchy = *made;
+    for (uint32_t p = 0; p < working->some_corner.size(); ++p)
+        if (working->is_alive(p)) ++counted.hindrances[size_t(hindrance_of(*working, p))];
     counted.collapse_count = log.gone.size();
     counted.depth = depth_of(hierarchy);
     counted.need_count = hierarchy.needs.size();
     if (!hierarchy.error_m.empty())
         counted.greatest_error_m = double(*std::max_element(hierarchy.error_m.begin(), hierarchy.error_m.end()));
     if (report != nullptr) *report = counted;
-    return hierarchy;
+    return made;
 }
 
 }  // namespace overlook::caveclod

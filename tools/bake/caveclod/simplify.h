@@ -1,6 +1,7 @@
 // From a mesh to the hierarchy of its collapses, with a proven error for each.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -8,12 +9,14 @@
 #include "formats/caveclod.h"
 #include "formats/result.h"
 #include "tools/bake/caveclod/groups.h"
+#include "tools/bake/caveclod/seam_error.h"
 #include "tools/bake/mesh.h"
 
 namespace overlook::caveclod {
 
 struct SimplifyOptions {
     uint64_t least_face_count = 0;  // stops at so many; 0: when nothing more may be collapsed
+    SeamBudget seams;
 };
 
 // One face corner that a collapse turns, or the corner at the gone position of a face that goes (then `to_vertex` is kNobody's).
@@ -33,7 +36,11 @@ struct SimplifyReport {
     uint64_t pass_count = 0, collapse_count = 0, postponed_count = 0, refused_count = 0;
     uint32_t depth = 0;  // of the longest chain of splits that need one another
     uint64_t need_count = 0;
+    std::array<uint64_t, kHindranceCount> hindrances{};  // positions of the coarsest cut by what keeps them (Hindrance)
     double greatest_error_m = 0;
+    SeamError seam_error;  // the worst of any face that a cut can hold
+    double greatest_seam_shift_m = 0;
+    uint64_t carried_count = 0;  // corners that took attributes along
     double topology_s = 0, candidates_s = 0, selection_s = 0, measuring_s = 0, applying_s = 0, rows_s = 0;
 };
 
@@ -43,7 +50,8 @@ struct SimplifyReport {
 // mesh, groups: of the same mesh, as find_groups gives them; every promise of Mesh kept. The hierarchy has positions, splits with
 // errors and needs, faces and render vertices; formats/caveclod.h's complete() fills the rest. error_m is the greatest distance
 // that SurfaceMap moves a point of the source over all that the split touches, rounded up and saturated over needs: an upper
-// bound of the two-sided distance, whatever else is drawn. Positions are the mesh's own; quantising them afterwards adds what it
+// bound of the two-sided distance, whatever else is drawn. Where seams move, it is never less than how far a corner's attributes
+// have been carried from where the source has them. Positions are the mesh's own; quantising them afterwards adds what it
 // moves (add_displacement). Same mesh, same hierarchy, for any number of threads. O(F log F) and about 700 bytes a face. Fails
 // with Exit::bad_input where the mesh is not a surface: "face 12 cannot be added: an edge of it has two faces already, or the
 // faces at a corner are no fan". `progress` is called with the share done, 0..1, from this thread.

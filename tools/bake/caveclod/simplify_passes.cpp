@@ -14,7 +14,9 @@ namespace overlook::caveclod {
 namespace {
 
 constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
-constexpr uint8_t kNothing = 0, kGuess = 1, kAllowed = 2;
+// What is known of a position's candidate; kNext: it was refused, and the next dearer one is wanted
+// (where seams move).
+constexpr uint8_t kNothing = 0, kGuess = 1, kNext = 2, kAllowed = 3;
 // A pass takes from the cheapest this share of all candidates; those measured worse than kWorst times its limit wait.
 constexpr double kShareOfPass = 0.5, kWorst = 2.5;
 // Below this share of the mesh's size errors are rounding, and all the same.
@@ -43,8 +45,9 @@ std::vector<Triangle> triangles_of(const WorkingMesh& mesh) {
 
 }  // namespace
 
-Passes::Passes(WorkingMesh& mesh, SimplifyReport& report)
+Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& report)
     : mesh_(mesh),
+      seams_(seams),
       report_(report),
       quadrics_(make_quadrics(mesh)),
       map_(make_surface_map(mesh)),
@@ -117,7 +120,7 @@ void Passes::check_candidates() {
         for (size_t i = begin; i < end; ++i) {
             uint32_t p = queue_[i].second;
             if (known_[p] == kAllowed) continue;
-            candidates_[p] = find_candidate(mesh_, quadrics_, p);
+            candidates_[p] = find_candidate(mesh_, quadrics_, p, known_[p] == kNext ? candidates_[p].bare_cost_m : -1);
             known_[p] = kAllowed;
             queue_[i].first =
                 candidates_[p].kept == kNone ? std::numeric_limits<float>::infinity() : float(candidates_[p].cost_m);
@@ -170,7 +173,9 @@ void Passes::select(uint64_t least_face_count) {
     uint64_t most = (face_count_ - least_face_count + 1) / 2;
     for (auto [cost, p] : queue_) {
         if (chosen_.size() >= most) break;
-        if (claim(p, candidates_[p].kept)) chosen_.push_back({p, candidates_[p].kept, next_fan_++, {}, 0, false});
+        if (!claim(p, candidates_[p].kept)) continue;
+        Chosen& chosen = chosen_.emplace_back();
+        chosen.gone = p, chosen.kept = candidates_[p].kept, chosen.fan = next_fan_++;
     }
     // Made in the order of positions, neighbours find one another's memory warm: several times faster than in the order of cost.
     std::sort(chosen_.begin(), chosen_.end(), [](const Chosen& a, const Chosen& b) { return a.gone < b.gone; });
@@ -196,8 +201,18 @@ void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& change
     chosen.fan_error_m = chosen.measured.error_m;
     for (uint32_t i = 0; i < fan.count; ++i)
         chosen.fan_error_m = std::max(chosen.fan_error_m, double(face_error_m_[fan.corner[i] / kCorners]));
-    bool may_be_made = chosen.measured.faces_its_source && chosen.worst_m <= kWorst * limit_m_;
-    if (may_be_made) chosen.measured.faces_its_source = turns_no_face(chosen, fan);
+    if (mesh_.seams_move) measure_seams(chosen, prepared, changes);
+    chosen.is_refused = !chosen.measured.faces_its_source || !chosen.seam_error.is_within(seams_);
+    bool may_be_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+    if (may_be_made) chosen.is_refused = !turns_no_face(chosen, fan);
+}
+
+void Passes::measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapChanges& changes) const {
+    std::vector<uint32_t> places;
+    for (uint32_t v : changes.inside) places.push_back(map_.placement[v].place);
+    chosen.seam_error = seam_error(mesh_, prepared.fan, prepared.turned, changes.inside, places, seams_);
+    chosen.seam_shift_m = seam_shift_m(mesh_, prepared.fan, prepared.turned);
+    chosen.worst_m = std::max(chosen.worst_m, chosen.seam_shift_m);
 }
 
 // Every point of a new face is where the map has moved some point of the source, so some source is within the fan's error of it.
@@ -209,13 +224,16 @@ bool Passes::turns_no_face(const Chosen& chosen, const Fan& fan) const {
     return none_is_turned(source_, std::span(faces).first(count), chosen.fan_error_m, slack_m_);
 }
 
-void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const {
+void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) {
     const Fan& fan = prepared.fan;
     log.gone.push_back(chosen.gone);
     log.kept.push_back(chosen.kept);
-    log.error_m.push_back(float_at_least(chosen.measured.error_m));
+    log.error_m.push_back(float_at_least(std::max(chosen.measured.error_m, chosen.seam_shift_m)));
+    report_.seam_error.include(chosen.seam_error);
+    report_.greatest_seam_shift_m = std::max(report_.greatest_seam_shift_m, chosen.seam_shift_m);
     for (uint32_t i = 0; i < fan.count; ++i) {
         bool stays = i >= fan.first && i <= fan.last;
+        report_.carried_count += stays && (prepared.turned[i] & kCarried) != 0;
         log.turns.push_back({fan.corner[i], mesh_.vertex(fan.corner[i]), stays ? prepared.turned[i] : kNone});
     }
     log.turn_begin.push_back(uint32_t(log.turns.size()));
@@ -228,9 +246,12 @@ void Passes::decide(CollapseLog& log) {
     for (size_t i = 0; i < chosen_.size(); ++i) {
         Chosen& chosen = chosen_[i];
         Candidate& candidate = candidates_[chosen.gone];
-        chosen.is_made = chosen.measured.faces_its_source && chosen.worst_m <= kWorst * limit_m_;
-        if (!chosen.measured.faces_its_source) {
-            candidate = {kForbidden_m, kNone};
+        chosen.is_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+        if (chosen.is_refused) {
+            if (mesh_.seams_move)
+                known_[chosen.gone] = kNext;
+            else
+                candidate = {kForbidden_m, kNone, 0};
             ++report_.refused_count;
         } else if (!chosen.is_made) {
             candidate.cost_m = chosen.worst_m / kWorst * kFloatAllowance;

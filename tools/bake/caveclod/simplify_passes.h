@@ -13,7 +13,7 @@ namespace overlook::caveclod {
 class Passes {
   public:
     // face_count: of the mesh; quadrics and map are made here.
-    Passes(WorkingMesh& mesh, SimplifyReport& report);
+    Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& report);
 
     // Makes one pass; false when there is nothing left to collapse.
     bool run(uint64_t least_face_count, CollapseLog& log);
@@ -26,7 +26,9 @@ class Passes {
         Measured measured;
         double worst_m = 0;      // of the error and what attributes lose
         double fan_error_m = 0;  // of all that is drawn in the fan afterwards
-        bool is_made = false;
+        double seam_shift_m = 0;
+        SeamError seam_error;
+        bool is_refused = false, is_made = false;
     };
 
     struct TurnedFan {
@@ -44,15 +46,17 @@ class Passes {
     void prepare(const Chosen& chosen, TurnedFan& prepared) const;
     void measure();
     void measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& changes);
+    void measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapChanges& changes) const;
     bool turns_no_face(const Chosen& chosen, const Fan& fan) const;
     void decide(CollapseLog& log);
-    void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) const;
+    void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log);
     void provide_crossings();
     void apply();
     void forget(uint32_t position);
     void mark_around(const Fan& fan);
 
     WorkingMesh& mesh_;
+    const SeamBudget& seams_;
     SimplifyReport& report_;
     std::vector<Quadric> quadrics_;
     SurfaceMap map_;

@@ -62,7 +62,10 @@ std::vector<mesh::Corners> renumber(const mesh::Mesh& mesh, WorkingMesh& made) {
 
 void fill_corners(std::span<const mesh::Corners> faces, const Groups& groups, WorkingMesh& made) {
     made.some_corner.assign(made.positions_m.size(), kNone);
-    for (uint32_t source : made.source_position) made.kind.push_back(groups.kind[source]);
+    for (uint32_t source : made.source_position) {
+        PositionKind moving = groups.is_fixed[source] != 0 ? PositionKind::rigid : PositionKind::free;
+        made.kind.push_back(made.seams_move ? moving : groups.kind[source]);
+    }
     for (uint32_t f = 0; f < faces.size(); ++f) {
         made.face_group.push_back(groups.face_group[made.source_face[f]]);
         for (uint32_t c = 0; c < 3; ++c) {
@@ -71,6 +74,13 @@ void fill_corners(std::span<const mesh::Corners> faces, const Groups& groups, Wo
             made.some_corner[faces[f][c]] = f * kCorners + c;
         }
     }
+}
+
+void fill_vertex_places(const Groups& groups, WorkingMesh& made) {
+    made.vertex_place.resize(groups.vertices.size());
+    for (uint32_t p = 0; p < made.source_position.size(); ++p)
+        for (uint32_t v = groups.vertex_begin[made.source_position[p]]; v < groups.vertex_begin[made.source_position[p] + 1]; ++v)
+            made.vertex_place[v] = p;
 }
 
 void fill_features(const Groups& groups, WorkingMesh& made) {
@@ -125,8 +135,9 @@ bool fan_of(const Star& star, uint32_t gone, uint32_t at, Fan& fan) {
     return true;
 }
 
-Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& groups) {
+Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& groups, bool seams_move) {
     WorkingMesh made;
+    made.groups = &groups, made.seams_move = seams_move;
     std::vector<mesh::Corners> faces = renumber(mesh, made);
     auto topology = find_topology(mesh.positions_m.size(), faces);
     if (!topology) return bad_input("face {} {}", made.source_face[topology.error().face], topology.error().why);
@@ -136,11 +147,11 @@ Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& grou
         std::copy_n(topology->opposite.begin() + f * kCorners, kCorners, made.faces[f].opposite.begin());
     }
     made.edge_corners = std::move(topology->edge_corners);
-    made.render_vertices = groups.vertices;
     fill_corners(faces, groups, made);
     for (uint32_t p = 0; p < made.some_corner.size(); ++p)
         if (made.some_corner[p] == kNone) return bad_input("position {} is no corner of any face", made.source_position[p]);
     fill_features(groups, made);
+    if (seams_move) fill_vertex_places(groups, made);
     return made;
 }
 

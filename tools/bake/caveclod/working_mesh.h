@@ -19,6 +19,8 @@ namespace overlook::caveclod {
 
 constexpr uint32_t kNone = mesh::kNone;
 constexpr uint32_t kMostValence = 32;  // of a position that is taken away, or that one is collapsed into
+// Of the number of a render vertex: its attributes, at another position than its own. Only where seams may move.
+constexpr uint32_t kCarried = 0x80000000;
 
 // Corners are written face * kCorners + 0, 1 or 2, counter-clockwise.
 inline uint32_t next_corner(uint32_t corner) {
@@ -47,8 +49,11 @@ struct WorkingMesh {
     std::vector<PositionKind> kind;                      // [P]
     std::vector<uint32_t> face_group;                    // [F]
 
-    std::span<const RenderVertex> render_vertices;  // of the groups
+    const Groups* groups = nullptr;      // what it was made of, which must outlive it
+    bool seams_move = false;             // kind is then rigid or free
+    std::vector<uint32_t> vertex_place;  // [D] if seams_move: the position here of each of the groups' render vertices
 
+    const RenderVertex& look(uint32_t vertex) const { return groups->vertices[vertex & ~kCarried]; }
     size_t face_count() const { return faces.size(); }
     uint32_t& position(uint32_t corner) { return faces[corner / kCorners].position[corner % kCorners]; }
     uint32_t position(uint32_t corner) const { return faces[corner / kCorners].position[corner % kCorners]; }
@@ -86,7 +91,7 @@ bool fan_of(const Star& star, uint32_t gone, uint32_t at, Fan& fan);
 
 // Makes the arrays. Fails with Exit::bad_input where the mesh is not what Mesh promises: "face 12 cannot be added: an edge of it
 // has two faces already, or the faces at a corner are no fan", "position 7 is no corner of any face".
-Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& groups);
+Result<WorkingMesh> make_working_mesh(const mesh::Mesh& mesh, const Groups& groups, bool seams_move = false);
 
 // Takes `fan.gone` away. `vertex_at_kept`[i] is the render vertex of face i's turned corner. Writes only to what belongs to the
 // fan's faces, to the sides of their neighbours that touch them, and to some_corner of the link.

@@ -179,7 +179,7 @@ Result<Finding> keeps_no_budget(Stage& stage, const MethodSpec& spec, const std:
 
 // The budget before it is halved is so much of what a frame takes on the average without one.
 Result<Finding> halved_budget_by_method(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
-                                      double share) {
+                                        double share) {
     if (!stage.make(spec, stage.world)->set_triangles(0)) return keeps_no_budget(stage, spec, cameras);
     size_t middle = cameras.size() / 2;
     std::vector<view::Camera> first_half(cameras.begin(), cameras.begin() + ptrdiff_t(middle));

@@ -63,7 +63,8 @@ Result<std::vector<Case>> chosen_cases(const SuiteOptions& options) {
 Result<std::string> scene_path(const SuiteOptions& options, const std::vector<Case>& cases) {
     if (!options.scene.empty()) return options.scene;
     for (const Case& each : cases) {
-        if (!each.scene.empty()) return each.scene;
+        for (const std::string& path : {each.scene, each.mesh_scene})
+            if (!path.empty()) return path;
     }
     return bad_command("none of these cases has a scene; give --scene");
 }

@@ -68,7 +68,7 @@ Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Cam
 // One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods, all of methods of meshes, or neither.
 using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
-// Cases judged on frames beside the reference: S01, S03, S04, S06, S07, S08, S16.
+// Cases judged on frames beside the reference: S01 and S09, S03, S04, S06, S07, S08, S16.
 Result<std::vector<Finding>> run_dolly(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_yaw(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_teleports(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
@@ -86,6 +86,10 @@ Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene
 // Cases of methods that show pictures again: S05, S15.
 Result<std::vector<Finding>> run_ridge(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_turning_back(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// S10: what is left of masts, in pictures of kSupersampling x kSupersampling samples a pixel. Fails with Exit::impossible where a
+// flight shows none.
+Result<std::vector<Finding>> run_masts(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on what is decided: S02, S11, S19.
 Result<std::vector<Finding>> run_jitter(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);

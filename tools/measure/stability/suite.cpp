@@ -12,10 +12,11 @@ struct Ready {
     CaseRunner run;
 };
 constexpr Ready kReady[] = {
-    {"S01", run_dolly},  {"S02", run_jitter},      {"S03", run_yaw},           {"S04", run_teleports},
-    {"S05", run_ridge},  {"S06", run_skimming},    {"S07", run_horizon},       {"S08", run_climb},
-    {"S11", run_slopes}, {"S12", run_moved_world}, {"S15", run_turning_back},  {"S16", run_dropping},
-    {"S17", run_resize}, {"S18", run_cameras},     {"S19", run_halved_budget}, {"S20", run_back_and_forth},
+    {"S01", run_dolly},         {"S02", run_jitter},         {"S03", run_yaw},     {"S04", run_teleports},
+    {"S05", run_ridge},         {"S06", run_skimming},       {"S07", run_horizon}, {"S08", run_climb},
+    {"S09", run_dolly},         {"S10", run_masts},          {"S11", run_slopes},  {"S12", run_moved_world},
+    {"S15", run_turning_back},  {"S16", run_dropping},       {"S17", run_resize},  {"S18", run_cameras},
+    {"S19", run_halved_budget}, {"S20", run_back_and_forth},
 };
 
 CaseRunner runner_of(const std::string& number) {
