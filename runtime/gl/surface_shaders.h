@@ -3,8 +3,8 @@
 
 namespace overlook::gl::shaders {
 
-// How fragment shaders begin that mix colours in linear light and write them as a picture holds them. The root of sRGB is taken by
-// square roots, within a tenth of an 8-bit level of it, since powers cost a software renderer three times as much.
+// How fragment shaders begin that mix colours in linear light and write them as a picture holds them. The root of sRGB is taken
+// by square roots, within a tenth of an 8-bit level of it, since powers cost a software renderer three times as much.
 inline constexpr char kEncoding[] = R"(#version 450 core
 vec3 encoded(vec3 linear) {
     vec3 root = sqrt(max(linear, vec3(0.0031308)));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/gl/timer.h"
+#include "runtime/player/draw_cut.h"
 #include "runtime/player/flight.h"
 #include "runtime/player/subject.h"
 #include "runtime/terrain/near_plane.h"
@@ -81,14 +82,7 @@ class StreamedSubject : public Subject {
         } while (waits && !tiles_->is_settled());
         record.refine_ms = refining.elapsed_ms();
 
-        gl::Timer drawing;
-        drawing_->draw(target, cut_, local, style.look);
-        record.draw_ms = drawing.finished_ms();
-        record.triangle_count = cut_.triangle_count();
-        record.void_rim_triangle_count = cut_.void_rim_triangle_count;
-        record.tested_count = cut_.tested_count;
-        record.predicted_error_px = cut_.predicted_error_px;
-        record.uploaded_bytes = drawing_->uploaded_bytes();
+        draw_cut(*drawing_, target, cut_, local, style.look, record);
         stream.counts = tiles_->counts();
         stream.counts.uploaded_bytes = streamed_bytes;
         stream.budget_bytes = settings_.residency_budget_bytes;

@@ -6,6 +6,7 @@
 
 #include "formats/terrain.h"
 #include "runtime/gl/timer.h"
+#include "runtime/player/draw_cut.h"
 #include "runtime/player/flight.h"
 #include "runtime/player/subject.h"
 #include "runtime/terrain/near_plane.h"
@@ -106,16 +107,7 @@ class TerrainSubject : public Subject {
         gl::Timer refining;
         refiner_.cut_by_pixels(local, style.error_px, cut_, style.morph);
         record.refine_ms = refining.elapsed_ms();
-
-        gl::Timer drawing;
-        drawing_->draw(target, cut_, local, style.look);
-        record.draw_ms = drawing.finished_ms();
-
-        record.triangle_count = cut_.triangle_count();
-        record.void_rim_triangle_count = cut_.void_rim_triangle_count;
-        record.tested_count = cut_.tested_count;
-        record.predicted_error_px = cut_.predicted_error_px;
-        record.uploaded_bytes = drawing_->uploaded_bytes();
+        draw_cut(*drawing_, target, cut_, local, style.look, record);
     }
 
     const terrain::Terrain terrain_;

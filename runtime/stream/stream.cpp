@@ -10,7 +10,7 @@
 namespace overlook::stream {
 namespace {
 
-// Blocks on their way are worth so many frames' uploads at most: what is asked for now goes before what was long ago.
+// Blocks on their way are worth so many frames' uploads at most, so that the latest wishes wait for few of the older ones.
 constexpr uint64_t kFramesOnTheWay = 2;
 
 }  // namespace

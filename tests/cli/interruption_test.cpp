@@ -40,7 +40,8 @@ bool stop_while_writing(const ScratchFolder& folder, Running& bake) {
 std::string hilly_obj(uint32_t side) {
     std::string text;
     for (uint32_t y = 0; y <= side; ++y)
-        for (uint32_t x = 0; x <= side; ++x) text += fmt::format("v {} {} {}\n", x, y, 4 * std::sin(0.2 * x) * std::cos(0.17 * y));
+        for (uint32_t x = 0; x <= side; ++x)
+            text += fmt::format("v {} {} {}\n", x, y, 4 * std::sin(0.2 * x) * std::cos(0.17 * y));
     for (uint32_t y = 0; y < side; ++y)
         for (uint32_t x = 0; x < side; ++x) {
             uint32_t a = y * (side + 1) + x + 1;
@@ -49,8 +50,8 @@ std::string hilly_obj(uint32_t side) {
     return text;
 }
 
-void interrupt_while_writing(const ScratchFolder& folder, const std::string& source, const std::vector<std::string>& words, int signal) {
-
+void interrupt_while_writing(const ScratchFolder& folder, const std::string& source, const std::vector<std::string>& words,
+                             int signal) {
     bool was_stopped = false;
     for (int attempt = 0; attempt < 5 && !was_stopped; ++attempt) {
         write_text(folder / "out.ovl", "an older file");
@@ -79,7 +80,8 @@ TEST_P(Interruption, LeavesTheOldFileAndNoHalfOfANewOne) {
     ScratchFolder folder;
     write_hgt(folder / "N10E010.hgt", 1201, hilly_m);
     interrupt_while_writing(folder, "N10E010.hgt",
-                            {"bake-lod", "terrain", folder / "N10E010.hgt", "-o", folder / "out.ovl", "--no-texture"}, GetParam());
+                            {"bake-lod", "terrain", folder / "N10E010.hgt", "-o", folder / "out.ovl", "--no-texture"},
+                            GetParam());
 }
 
 TEST_P(Interruption, OfAMeshLeavesTheOldFileAndNoHalfOfANewOne) {

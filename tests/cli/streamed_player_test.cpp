@@ -20,7 +20,8 @@ std::string make_streamed(const ScratchFolder& folder) {
 }
 
 Words pictures(const std::string& file, const std::string& image, const std::string& report, Words more) {
-    Words words{"player", file, "--headless", "--size", "320x200", "--frames", "6", "--quiet", "--image", image, "--report", report};
+    Words words{"player", file,      "--headless", "--size", "320x200",  "--frames",
+                "6",      "--quiet", "--image",    image,    "--report", report};
     for (const char* camera : {"0,-9000,3000,45,-20", "9000,-9000,2500,0,-25", "15000,-1000,3000,200,-20"})
         words.insert(words.end(), {"--camera", camera});
     words.insert(words.end(), more.begin(), more.end());

@@ -11,17 +11,10 @@
 #include "formats/atomic_file.h"
 #include "runtime/terrain/refine_tiles.h"
 #include "tests/formats/scratch_folder.h"
-#include "tests/tools/synthetic_dem.h"
-#include "tools/bake/terrain.h"
+#include "tests/runtime/hills.h"
 
 namespace overlook::terrain {
 namespace {
-
-Terrain baked(const dem::Raster& dem) {
-    auto terrain = bake(dem, {}, [](double) {});
-    EXPECT_TRUE(terrain.has_value());
-    return std::move(*terrain);
-}
 
 std::string written(const ScratchFolder& folder, const Terrain& terrain) {
     Result<container::Writer> writer = container::Writer::create(folder / "a.ovl", kKind);
@@ -35,17 +28,6 @@ std::unique_ptr<Tiles> opened(const std::string& path, const stream::Settings& s
     Result<std::unique_ptr<Tiles>> tiles = Tiles::open(std::move(*reader), settings);
     EXPECT_TRUE(tiles) << tiles.error().message;
     return std::move(*tiles);
-}
-
-view::Camera random_camera(const Terrain& terrain, uint64_t seed) {
-    auto share = [&](uint64_t i) { return test::random_share(77, seed, i); };
-    view::Camera camera;
-    double east_m = terrain.shape.width * terrain.frame.metres_per_column,
-           south_m = terrain.shape.height * terrain.frame.metres_per_row;
-    camera.position_m = {east_m * share(0), -south_m * share(1), 500 + 3000 * share(2) * share(3)};
-    camera.heading_deg = 360 * share(4), camera.pitch_deg = 60 * share(5) - 50, camera.fov_y_deg = 30 + 60 * share(6);
-    camera.width_px = 640, camera.height_px = 480;
-    return camera;
 }
 
 // Which sample each slot's places stand on.
@@ -94,7 +76,7 @@ TEST(TileRefiner, CutsAsTheWholeDoesOnceItsTilesAreThere) {
         expected.wants_codes = cut.wants_codes = true;
         for (uint64_t seed = 0; seed < 24; ++seed) {
             view::Camera camera = random_camera(terrain, seed);
-            double error_px = 0.5 * std::pow(16.0, test::random_share(78, seed)), morph = seed % 2 == 0 ? 0 : 0.5;
+            double error_px = random_tolerance_px(seed), morph = seed % 2 == 0 ? 0 : 0.5;
             whole.cut_by_pixels(camera, error_px, expected, morph);
             settle(*tiles, parts, camera, error_px, morph, cut);
             ASSERT_EQ(cut.stopped_count, 0u);
@@ -116,24 +98,13 @@ TEST(TileRefiner, CutsAsTheWholeDoesOnceItsTilesAreThere) {
     }
 }
 
-// Vertices of a cut that lie in the middle of one of its edges: each is a crack.
-size_t count_t_junctions(const std::vector<uint32_t>& samples, uint32_t width) {
-    std::set<uint32_t> used(samples.begin(), samples.end());
-    size_t junctions = 0;
-    for (size_t i = 0; i < samples.size(); ++i) {
-        uint32_t a = samples[i], b = samples[i % 3 == 2 ? i - 2 : i + 1];
-        uint32_t x2 = a % width + b % width, y2 = a / width + b / width;
-        if (x2 % 2 == 0 && y2 % 2 == 0) junctions += used.count(y2 / 2 * width + x2 / 2);
-    }
-    return junctions;
-}
-
 view::Camera flying(const Terrain& terrain, uint32_t frame, uint32_t frames) {
     view::Camera camera = random_camera(terrain, 0);
     double t = double(frame) / frames;
     camera.position_m = {terrain.shape.width * terrain.frame.metres_per_column * (0.1 + 0.8 * t),
                          -(terrain.shape.height * terrain.frame.metres_per_row) * (0.5 + 0.35 * std::sin(9 * t)), 1500};
     camera.heading_deg = 90 + 40 * std::sin(5 * t), camera.pitch_deg = -12, camera.fov_y_deg = 60;
+    camera.width_px = 640, camera.height_px = 480;
     return camera;
 }
 
@@ -215,9 +186,9 @@ TEST(TileRefiner, FliesOnOverADamagedBlockAndSaysSoOnce) {
 
     std::unique_ptr<Tiles> tiles = opened(folder / "damaged.ovl", {1 << 30, 64 << 20, 1, 1});
     TileRefiner refiner(*tiles);
-    view::Camera camera = random_camera(terrain, 0);
+    view::Camera camera;
     camera.position_m = {512 * terrain.frame.metres_per_column * 0.9, -512 * terrain.frame.metres_per_row * 0.9, 1200};
-    camera.pitch_deg = -80;
+    camera.pitch_deg = -80, camera.width_px = 640, camera.height_px = 480;
     Cut cut;
     std::vector<Error> faults;
     for (uint32_t frame = 0; frame < 12; ++frame) {

@@ -115,32 +115,34 @@ void report(const MeshArgs& args, const Done& done, const command::Common& commo
     for (const std::string& line : mesh::text_of(done.input)) command::detail(common, line);
     uint64_t lost = done.input.dropped.size();
     if (lost > 0)
-        command::note(common, fmt::format("{}: {} of {} triangles are not in it, each for a reason; --json lists how many for which",
-                                          args.mesh, with_commas(lost), with_commas(done.input.triangle_count)));
+        command::note(common,
+                      fmt::format("{}: {} of {} triangles are not in it, each for a reason; --json lists how many for which",
+                                  args.mesh, with_commas(lost), with_commas(done.input.triangle_count)));
     command::detail(common, fmt::format("{} surface groups, {} ids (at least {}); the index array would be {:.1f} % populated",
                                         bake.group_count, bake.packed_count, bake.clique_bound, 100 * bake.dense_population));
     command::detail(common, fmt::format("{} splits of depth {}, {} needs; read in {:.2f} s, baked in {:.2f} s ({:.2f} million "
                                         "triangles a second)",
                                         bake.simplify.collapse_count, bake.simplify.depth, bake.simplify.need_count, done.read_s,
                                         done.bake_s, done.million_triangles_per_s()));
-    command::detail(common, fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
-                                        "topology, {} because a face would fold, {} because one would look away from its source or "
-                                        "a seam's budget would be passed",
-                                        with_commas(done.base_face_count), bake.simplify.hindrances[0], bake.simplify.hindrances[1],
-                                        bake.simplify.hindrances[2], bake.simplify.hindrances[3], bake.simplify.hindrances[4]));
-    command::detail(common, fmt::format("at an error of 1 % of its diagonal ({:.3g} m) {} triangles are left, {:.1f} %", 0.01 * bake.size_m,
-                                        with_commas(bake.face_count_at_one_percent),
+    command::detail(common,
+                    fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
+                                "topology, {} because a face would fold, {} because one would look away from its source or "
+                                "a seam's budget would be passed",
+                                with_commas(done.base_face_count), bake.simplify.hindrances[0], bake.simplify.hindrances[1],
+                                bake.simplify.hindrances[2], bake.simplify.hindrances[3], bake.simplify.hindrances[4]));
+    command::detail(common, fmt::format("at an error of 1 % of its diagonal ({:.3g} m) {} triangles are left, {:.1f} %",
+                                        0.01 * bake.size_m, with_commas(bake.face_count_at_one_percent),
                                         100 * double(bake.face_count_at_one_percent) / double(bake.source_face_count)));
     if (args.choices.bake.simplify.seams.moves)
         command::detail(common, fmt::format("seams moved by at most {:.3g} m, which the errors hold; {} corners carry attributes "
                                             "along, which are wrong by at most {:.2f} texels and {:.2f} degrees",
                                             bake.simplify.greatest_seam_shift_m, with_commas(bake.simplify.carried_count),
                                             bake.simplify.seam_error.uv_texels, bake.simplify.seam_error.normal_deg));
-    command::note(common, fmt::format("{}: {} triangles, down to {}, {:.1f} MB ({:.1f} bits a triangle); keeps any error from "
-                                      "{:.3g} m, at most {:.3g} m",
-                                      args.output, with_commas(bake.source_face_count), with_commas(done.base_face_count),
-                                      double(done.bytes) / 1e6, done.bits_per_triangle(), done.finest_error_m,
-                                      done.coarsest_error_m));
+    command::note(common,
+                  fmt::format("{}: {} triangles, down to {}, {:.1f} MB ({:.1f} bits a triangle); keeps any error from "
+                              "{:.3g} m, at most {:.3g} m",
+                              args.output, with_commas(bake.source_face_count), with_commas(done.base_face_count),
+                              double(done.bytes) / 1e6, done.bits_per_triangle(), done.finest_error_m, done.coarsest_error_m));
 }
 
 // What no bake can go below, before the long work.
@@ -161,7 +163,8 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) {
     CLI::App* verb = app.add_subcommand(
-        "mesh", "A mesh (OBJ, PLY, OFF, STL, glTF) into a hierarchy of splits with proven errors, which many cameras refine at once");
+        "mesh",
+        "A mesh (OBJ, PLY, OFF, STL, glTF) into a hierarchy of splits with proven errors, which many cameras refine at once");
     caveclod::GroupOptions& groups = args.choices.bake.groups;
     caveclod::Precision& precision = args.choices.bake.precision;
     verb->add_option("MESH", args.mesh, "The mesh; it is repaired, not refused, and every repair is counted")->required();
@@ -182,7 +185,8 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
         ->check(command::number_in(0, 90))
         ->capture_default_str();
     verb->add_flag("--ignore-uv", groups.ignores_uv, "Leave texture coordinates out: their seams fix nothing then");
-    verb->add_option("--position-bits", precision.position_bits, "Bits of each coordinate; the rounding counts towards every error")
+    verb->add_option("--position-bits", precision.position_bits,
+                     "Bits of each coordinate; the rounding counts towards every error")
         ->check(CLI::Range(8, 20))
         ->capture_default_str();
     caveclod::SeamBudget& seams = args.choices.bake.simplify.seams;
@@ -222,10 +226,10 @@ int bake_mesh(MeshArgs args, const command::Common& common) {
 
     begin = std::chrono::steady_clock::now();
     command::Progress progress(common, "baking");
-    auto hierarchy = caveclod::bake(file->mesh, options, done.bake, [&](double share) { progress.set(share); },
-                                    [&] { tell_floors(args, done.bake, common); });
-    if (!hierarchy)
-        return command::fail(kName, Error{hierarchy.error().exit, args.mesh + ": " + hierarchy.error().message});
+    auto hierarchy = caveclod::bake(
+        file->mesh, options, done.bake, [&](double share) { progress.set(share); },
+        [&] { tell_floors(args, done.bake, common); });
+    if (!hierarchy) return command::fail(kName, Error{hierarchy.error().exit, args.mesh + ": " + hierarchy.error().message});
     done.bake_s = seconds_since(begin);
     done.base_face_count = hierarchy->base_face_count;
     done.finest_error_m = double(hierarchy->finest_error_m);

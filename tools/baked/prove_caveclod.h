@@ -13,10 +13,10 @@
 namespace overlook::caveclod {
 
 struct Proof {
-    std::string broken_law;               // of the hierarchy's own (tools/bake/caveclod/cut.h); empty = none
-    uint64_t triangle_count = 0;          // of the source
-    uint64_t lost_triangle_count = 0;     // of the source's, missing in the finest cut
-    uint64_t foreign_triangle_count = 0;  // in the finest cut, but not of the source
+    std::string broken_law;                          // of the hierarchy's own (tools/bake/caveclod/cut.h); empty = none
+    uint64_t triangle_count = 0;                     // of the source
+    uint64_t lost_triangle_count = 0;                // of the source's, missing in the finest cut
+    uint64_t foreign_triangle_count = 0;             // in the finest cut, but not of the source
     double finest_stated_m = 0, finest_moved_m = 0;  // of the finest cut: the promise, and how far a corner really moved
     CutsProof cuts;                                  // against the finest cut, which is the source but for that
     SeamsProof seams;                                // of the same cuts' corners

@@ -57,10 +57,11 @@ void print_text(const caveclod::Proof& proof) {
     fmt::print("{} of their {} faces are turned by more than 90 degrees from the source under them{}\n",
                with_commas(cuts.turned_count), with_commas(cuts.face_count), cuts.turned_count == 0 ? "" : "  BROKEN");
     const caveclod::SeamsProof& seams = proof.seams;
-    fmt::print("{} of their {} corners carry attributes from up to {:.3g} m away, wrong by {:.2f} texels and {:.2f} degrees at the "
-               "most; {} beyond what is allowed{}\n",
-               with_commas(seams.carried_count), with_commas(seams.corner_count), seams.greatest_shift_m, seams.worst.uv_texels,
-               seams.worst.normal_deg, with_commas(seams.wrong_count), seams.wrong_count == 0 ? "" : "  BROKEN");
+    fmt::print(
+        "{} of their {} corners carry attributes from up to {:.3g} m away, wrong by {:.2f} texels and {:.2f} degrees at the "
+        "most; {} beyond what is allowed{}\n",
+        with_commas(seams.carried_count), with_commas(seams.corner_count), seams.greatest_shift_m, seams.worst.uv_texels,
+        seams.worst.normal_deg, with_commas(seams.wrong_count), seams.wrong_count == 0 ? "" : "  BROKEN");
     fmt::print("{}\n", proof.holds() ? "every promise holds" : "a promise is broken");
 }
 
@@ -91,8 +92,7 @@ int verify_mesh(const VerifyArgs& args, const container::Reader& file, const com
     options.seed = common.seed;
     caveclod::SeamBudget seams = choices->bake.simplify.seams;
     seams.texture_px = mesh::texture_sizes_px(source->mesh);
-    caveclod::Proof proof =
-        caveclod::prove(*hierarchy, source->mesh, seams, options, [&](double done) { progress.set(done); });
+    caveclod::Proof proof = caveclod::prove(*hierarchy, source->mesh, seams, options, [&](double done) { progress.set(done); });
     if (common.json)
         fmt::print("{}\n", json_of(proof).dump(2));
     else

@@ -41,41 +41,59 @@ Surface surface_of(std::span<const glm::vec3> positions_m, std::span<const std::
     return surface;
 }
 
+struct Baked {
+    mesh::Mesh mesh;
+    Hierarchy hierarchy;
+};
+Baked baked(const mesh::Mesh& mesh) {
+    return {mesh, *build_hierarchy(mesh, *find_groups(mesh, {}), {})};
+}
+
+// Holds a random legal cut of so many triangles, or as few as there can be, to its stated error; how many times that is the
+// measured one at least.
+double judged(const Baked& baked, uint64_t triangle_count, uint64_t seed) {
+    const Hierarchy& h = baked.hierarchy;
+    Applied applied = random_cut(h, triangle_count, seed);
+    Surface source = surface_of(baked.mesh.positions_m, baked.mesh.faces);
+    Surface cut = surface_of(h.positions_m, faces_of(h, applied).positions);
+    double stated_m = stated_error_m(h, applied), bound_m = stated_m / 100;
+    double measured_m =
+        CGAL::Polygon_mesh_processing::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(source, cut, bound_m);
+    EXPECT_LE(measured_m - bound_m, stated_m) << seed;
+    return stated_m / (measured_m + bound_m);
+}
+
+// No straight extrusions: where the greatest distance is reached along whole lines, CGAL's search takes minutes and gigabytes.
+TEST(StatedError, IsNotBelowTheHausdorffDistanceOfCgal) {
+    for (const mesh::Mesh& mesh : {test::sphere(24, 12, 0.05), test::grid(20, 20, test::rough_m), test::torus(24, 12, 1, 0.4),
+                                   test::sphere(18, 10, 0.03), test::grid(16, 30, test::rough_m)}) {
+        Baked made = baked(mesh);
+        for (uint64_t seed : {1u, 2u}) EXPECT_LE(judged(made, mesh.faces.size() / (seed == 1 ? 4 : 12), seed), 1.5) << seed;
+    }
+}
+
 // OVERLOOK_EXACT_CUTS of them, where that is set.
 uint64_t cut_count() {
     const char* count = std::getenv("OVERLOOK_EXACT_CUTS");
     return count != nullptr ? std::strtoull(count, nullptr, 10) : 10;
 }
 
-// Random legal cuts, log-uniform from 0.1 to 50 % of the triangles, in turn of meshes of several kinds.
-TEST(StatedError, IsNotBelowTheHausdorffDistanceOfCgal) {
-    // No straight extrusions: where the greatest distance is reached along whole lines, CGAL's search takes minutes and
-    // gigabytes.
-    std::vector<mesh::Mesh> meshes{test::sphere(24, 12, 0.05), test::grid(20, 20, test::rough_m), test::torus(24, 12, 1, 0.4),
-                                   test::sphere(18, 10, 0.03), test::grid(16, 30, test::rough_m)};
-    std::vector<Hierarchy> hierarchies;
-    for (const mesh::Mesh& mesh : meshes) hierarchies.push_back(*build_hierarchy(mesh, *find_groups(mesh, {}), {}));
+// Log-uniform from 0.1 to 50 % of the triangles, in turn of meshes of several kinds.
+TEST(StatedError, IsNotBelowItForCutsOfEverySize) {
+    std::vector<Baked> all;
+    for (const mesh::Mesh& mesh : {test::sphere(72, 36, 0.05), test::grid(60, 60, test::rough_m), test::torus(72, 36, 1, 0.4)})
+        all.push_back(baked(mesh));
     std::vector<double> stated_over_measured;
-    size_t broken_count = 0;
     for (uint64_t i = 0; i < cut_count(); ++i) {
-        const mesh::Mesh& mesh = meshes[i % meshes.size()];
-        const Hierarchy& h = hierarchies[i % meshes.size()];
+        const Baked& one = all[i % all.size()];
         double place = std::fmod(double(i + 1) * 0.6180339887498949, 1.0), share = 0.001 * std::pow(500.0, place);
-        Applied applied = random_cut(h, uint64_t(share * double(mesh.faces.size())) + 1, i + 1);
-        Surface source = surface_of(mesh.positions_m, mesh.faces);
-        Surface cut = surface_of(h.positions_m, faces_of(h, applied).positions);
-        double stated_m = stated_error_m(h, applied), bound_m = stated_m / 100;
-        double measured_m =
-            CGAL::Polygon_mesh_processing::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(source, cut, bound_m);
-        EXPECT_LE(measured_m - bound_m, stated_m) << "cut " << i;
-        broken_count += measured_m - bound_m > stated_m;
-        stated_over_measured.push_back(stated_m / measured_m);
+        stated_over_measured.push_back(judged(one, uint64_t(share * double(one.mesh.faces.size())) + 1, i + 1));
     }
     ASSERT_FALSE(stated_over_measured.empty());
     std::sort(stated_over_measured.begin(), stated_over_measured.end());
     double median = stated_over_measured[stated_over_measured.size() / 2];
-    std::printf("%zu cuts by CGAL: %zu broken, stated over measured %.3f in the median, %.3f at the most\n",
-                stated_over_measured.size(), broken_count, median, stated_over_measured.back());
+    std::printf("%zu cuts by CGAL: stated over measured %.3f in the median, %.3f at the most\n", stated_over_measured.size(),
+                median, stated_over_measured.back());
     EXPECT_LE(median, 1.5);
 }
 

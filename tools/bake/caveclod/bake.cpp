@@ -69,9 +69,8 @@ Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeR
     progress(kGrouped);
     Grid grid;
     double moved_m = 0;
-    auto hierarchy =
-        build_hierarchy(on_grid(mesh, options.precision, grid, moved_m), *groups, options.simplify, &report.simplify,
-                        [&](double share) { progress(kGrouped + (kBuilt - kGrouped) * share); });
+    auto hierarchy = build_hierarchy(on_grid(mesh, options.precision, grid, moved_m), *groups, options.simplify, &report.simplify,
+                                     [&](double share) { progress(kGrouped + (kBuilt - kGrouped) * share); });
     if (!hierarchy) return tl::unexpected(hierarchy.error());
     progress(kBuilt);
 

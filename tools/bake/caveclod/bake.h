@@ -25,8 +25,8 @@ struct BakeReport {
     uint64_t dense_bytes = 0, rows_bytes = 0;
     // Told before collapsing: under the strict rule by rigid positions and boundary curves; where seams move by borders alone.
     uint64_t floor_face_estimate = 0, budgeted_floor_face_estimate = 0;
-    double size_m = 0;                         // diagonal of the box round all positions
-    uint64_t face_count_at_one_percent = 0;    // of the coarsest cut with a stated error of at most a hundredth of size_m
+    double size_m = 0;                       // diagonal of the box round all positions
+    uint64_t face_count_at_one_percent = 0;  // of the coarsest cut with a stated error of at most a hundredth of size_m
     SimplifyReport simplify;
     Quantised quantised;
 };
@@ -34,9 +34,10 @@ struct BakeReport {
 // Bakes in memory; the hierarchy is quantised, complete and canonical, its errors hold against the file that
 // `mesh` was read from: what reading and quantising have moved is in them.
 // A pure function of its arguments, for any number of threads. `progress` is called with the share done, 0..1, from this thread;
-// `on_floors` once, before the long work, when the groups and the floors are in `report`. Fails as find_groups, build_hierarchy and
-// complete do.
-Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeReport& report,
-                       const std::function<void(double)>& progress, const std::function<void()>& on_floors = [] {});
+// `on_floors` once, before the long work, when the groups and the floors are in `report`. Fails as find_groups, build_hierarchy
+// and complete do.
+Result<Hierarchy> bake(
+    const mesh::Mesh& mesh, const BakeOptions& options, BakeReport& report, const std::function<void(double)>& progress,
+    const std::function<void()>& on_floors = [] {});
 
 }  // namespace overlook::caveclod

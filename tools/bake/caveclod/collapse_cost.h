@@ -25,7 +25,7 @@ std::vector<Quadric> make_quadrics(const WorkingMesh& mesh);
 // Where a position would best go.
 struct Candidate {
     double cost_m = 0;
-    uint32_t kept = kNone;  // none is allowed
+    uint32_t kept = kNone;   // none is allowed
     double bare_cost_m = 0;  // without what its seams shift
 };
 

@@ -49,9 +49,9 @@ struct Groups {
     uint32_t packed_count = 0;
     uint32_t clique_bound = 0;  // that many groups share a position pairwise: fewer ids cannot do
 
-    std::vector<PositionKind> kind;       // [P]
-    std::vector<uint8_t> is_fixed;        // [P] rigid for a reason that no seam budget lifts: any but where boundaries meet or end
-    std::vector<FeatureEdge> features;    // sorted by a, then b, each edge once
+    std::vector<PositionKind> kind;     // [P]
+    std::vector<uint8_t> is_fixed;      // [P] rigid for a reason that no seam budget lifts: any but where boundaries meet or end
+    std::vector<FeatureEdge> features;  // sorted by a, then b, each edge once
     std::vector<uint32_t> feature_begin;  // [P+1] rows over `feature_ends`
     std::vector<uint32_t> feature_ends;   // the other ends of the feature edges at each position, ascending
 

@@ -21,7 +21,8 @@ void classify_positions(Corners faces, const MeshEdges& edges, std::span<const u
 // second way between the same two). O(F + P), but O(n log n) for the n curves.
 uint64_t least_face_count(Corners faces, const MeshEdges& edges, const Groups& groups);
 
-// What of `groups` least_face_count looks at, as it is where seams may move: only borders bound, and only is_fixed is rigid. O(F + P).
+// What of `groups` least_face_count looks at, as it is where seams may move: only borders bound, and only is_fixed is rigid. O(F
+// + P).
 Groups with_borders_alone(const Groups& groups);
 
 }  // namespace overlook::caveclod

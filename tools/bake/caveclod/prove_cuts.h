@@ -31,7 +31,7 @@ Applied proof_cut(const Hierarchy& hierarchy, const ProofOptions& options, uint6
 // error (by more than the rounding of positions) breaks the promise. The finest cut stands for the source, so finest_error_m is
 // not tried. Faces that are turned from that source (turned_faces.h) are counted. `progress` is called with the share done, 0..1,
 // from this thread. Same hierarchy and options, same answer for any number of threads. O(cut_count * F log F).
-CutsProof prove_cuts(const Hierarchy& hierarchy, const ProofOptions& options,
-                     const std::function<void(double)>& progress = [](double) {});
+CutsProof prove_cuts(
+    const Hierarchy& hierarchy, const ProofOptions& options, const std::function<void(double)>& progress = [](double) {});
 
 }  // namespace overlook::caveclod

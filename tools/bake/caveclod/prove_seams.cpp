@@ -128,7 +128,8 @@ SeamsProof prove_seams(const Hierarchy& h, const SeamBudget& budget, const Proof
         std::vector<SeamsProof> found(count);
         parallel_ranges(count, 1, [&](size_t i, size_t) { found[i] = judge.judge(proof_cut(h, options, begin + i)); });
         for (const SeamsProof& one : found) {
-            proof.corner_count += one.corner_count, proof.carried_count += one.carried_count, proof.wrong_count += one.wrong_count;
+            proof.corner_count += one.corner_count, proof.carried_count += one.carried_count,
+                proof.wrong_count += one.wrong_count;
             proof.worst.include(one.worst);
             proof.greatest_shift_m = std::max(proof.greatest_shift_m, one.greatest_shift_m);
         }

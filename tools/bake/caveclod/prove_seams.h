@@ -19,10 +19,11 @@ struct SeamsProof {
 
 // Draws the cuts that prove_cuts draws. A corner is the source's own if the finest cut has, at its position and in its face's
 // surface group, a corner that looks the same. Any other must have come, with the seam, from some corner of that group no farther
-// away than the cut's stated error: whichever of these makes the least of the budget is taken, and both the corner's attributes and
-// what the face draws nearest to that place are held against it. Same hierarchy and options, same answer for any number of
+// away than the cut's stated error: whichever of these makes the least of the budget is taken, and both the corner's attributes
+// and what the face draws nearest to that place are held against it. Same hierarchy and options, same answer for any number of
 // threads. Cost: cut_count * (F log F + carried corners * corners of their group within the stated error).
-SeamsProof prove_seams(const Hierarchy& hierarchy, const SeamBudget& budget, const ProofOptions& options,
-                       const std::function<void(double)>& progress = [](double) {});
+SeamsProof prove_seams(
+    const Hierarchy& hierarchy, const SeamBudget& budget, const ProofOptions& options,
+    const std::function<void(double)>& progress = [](double) {});
 
 }  // namespace overlook::caveclod

@@ -28,7 +28,8 @@ glm::dvec2 texture_px_of(const SeamBudget& budget, uint32_t surface) {
     return surface < budget.texture_px.size() ? budget.texture_px[surface] : glm::dvec2(kTextureSize_px);
 }
 
-TurnedFace turned_face(const WorkingMesh& mesh, const Fan& fan, const TurnedVertices& turned, uint32_t i, const SeamBudget& budget) {
+TurnedFace turned_face(const WorkingMesh& mesh, const Fan& fan, const TurnedVertices& turned, uint32_t i,
+                       const SeamBudget& budget) {
     TurnedFace face;
     uint32_t corner = fan.corner[i];
     face.at = {mesh.at(fan.kept), mesh.at(fan.link[i]), mesh.at(fan.link[i + 1])};
@@ -83,7 +84,8 @@ SeamError between(const RenderVertex& a, const RenderVertex& b, const glm::dvec2
     return {glm::length((glm::dvec2(a.uv) - glm::dvec2(b.uv)) * texture_px), turn_rad * 180 / std::numbers::pi};
 }
 
-RenderVertex interpolated(const glm::dvec3& p, const std::array<glm::dvec3, 3>& at, const std::array<const RenderVertex*, 3>& looks) {
+RenderVertex interpolated(const glm::dvec3& p, const std::array<glm::dvec3, 3>& at,
+                          const std::array<const RenderVertex*, 3>& looks) {
     glm::dvec3 w = weights_at(p, at[0], at[1], at[2]), normal(0);
     glm::dvec2 uv(0);
     for (glm::length_t c = 0; c < 3; ++c) {

@@ -31,7 +31,8 @@ struct SeamError {
 SeamError between(const RenderVertex& a, const RenderVertex& b, const glm::dvec2& texture_px);
 
 // What is drawn at the point of a triangle that is nearest to p (in its plane, drawn into it).
-RenderVertex interpolated(const glm::dvec3& p, const std::array<glm::dvec3, 3>& at, const std::array<const RenderVertex*, 3>& looks);
+RenderVertex interpolated(const glm::dvec3& p, const std::array<glm::dvec3, 3>& at,
+                          const std::array<const RenderVertex*, 3>& looks);
 
 // How far the attributes that the fan's turned corners carry are from where they belong: the distance between the kept position
 // and the one that each was taken from, at the most; 0 where none is carried. Metres.

@@ -55,9 +55,9 @@ struct SimplifyReport {
 // moves (add_displacement). Same mesh, same hierarchy, for any number of threads. O(F log F) and about 700 bytes a face. Fails
 // with Exit::bad_input where the mesh is not a surface: "face 12 cannot be added: an edge of it has two faces already, or the
 // faces at a corner are no fan". `progress` is called with the share done, 0..1, from this thread.
-Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, const SimplifyOptions& options,
-                                  SimplifyReport* report = nullptr,
-                                  const std::function<void(double)>& progress = [](double) {});
+Result<Hierarchy> build_hierarchy(
+    const mesh::Mesh& mesh, const Groups& groups, const SimplifyOptions& options, SimplifyReport* report = nullptr,
+    const std::function<void(double)>& progress = [](double) {});
 
 // Where positions have moved by at most displacement_m since the errors were measured: every point of every face has moved by no
 // more, so all errors, and that of the finest cut, grow by it.

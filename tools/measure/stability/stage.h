@@ -65,7 +65,8 @@ uint32_t samples_of(const MethodSpec& spec);
 // A frame of a new method and the reference's. Fails as ReferenceRenderer does.
 Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame);
 
-// One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods, all of methods of meshes, or neither.
+// One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods, all of methods of
+// meshes, or neither.
 using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on frames beside the reference: S01 and S09, S03, S04, S06, S07, S08, S16.

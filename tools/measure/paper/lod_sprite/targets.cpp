@@ -187,7 +187,9 @@ Target at_most(const char* name, const char* printed, double goal, const char* n
 using Run = const RunResult&;
 
 std::vector<Told> costs_told_by(const Teller& teller) {
-    auto uneven = [](Run) { return std::string("frames in which a key fades in, is begun or is finished, and the machine's own noise"); };
+    auto uneven = [](Run) {
+        return std::string("frames in which a key fades in, is begun or is finished, and the machine's own noise");
+    };
     return {
         {at_least("speed-up of the mean frame over drawing everything at the high cut", "9.9", Printed::kSpeedUp,
                   "times, one run"),
