@@ -204,6 +204,7 @@ Result<void> Painter::draw_pass(Pass pass, gl::Surface* surface, const view::Cam
     if (raises) glEnable(GL_CULL_FACE);
     surface->draw(**program, camera);
     glDisable(GL_CULL_FACE);
+    ++(pass == Pass::near ? passes_.near : passes_.far);
     return {};
 }
 
@@ -235,6 +236,7 @@ Result<void> Painter::blend_keys(gl::Surface& far, const view::Camera& camera, c
 Result<void> Painter::draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
                            const NovelOptions& options) {
     assert(options.keys.size() <= kMostKeysAtOnce);
+    passes_ = {0, 0, options.is_mask ? 0u : 1u};
     target.bind();
     clear_depth();
     const GLfloat nothing[4] = {0, 0, 0, 1};

@@ -89,6 +89,13 @@ class Painter {
     Result<void> draw(const gl::Target& target, gl::Surface* near, gl::Surface& far, const view::Camera& camera,
                       const NovelOptions& options);
 
+    // How often the frame drawn last drew each of them.
+    struct Passes {
+        uint32_t near = 0, far = 0, background = 0;
+        uint32_t all() const { return near + far + background; }
+    };
+    const Passes& passes() const { return passes_; }
+
     // Of the key in a slot, its size that of the texels.
     const view::Camera& texel_camera(uint32_t slot) const { return sprites_[slot].picture.drawn_camera; }
     uint64_t resident_bytes() const;
@@ -108,6 +115,7 @@ class Painter {
     void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options, bool raises) const;
 
     std::vector<Sprite> sprites_;
+    Passes passes_;
     gl::Program key_program_;
     std::map<uint32_t, gl::Program> programs_;  // by pass, keys, look-ups and what is shown
 };

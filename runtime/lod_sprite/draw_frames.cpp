@@ -153,6 +153,10 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
     if (Result<void> drawn = paint(target, novel_); !drawn) return tl::unexpected(drawn.error());
     FrameCounts counts = counts_;
     counts.uploaded_bytes += surface_.uploaded_bytes();
+    const Painter::Passes& passes = painter_->passes();
+    uint64_t near = plan_->near_triangle_count, far = plan_->cut->triangle_count() - near;
+    counts.vertex_reference_count += 3 * (passes.near * near + passes.far * far);
+    counts.draw_call_count += passes.all();
     return counts;
 }
 
@@ -201,6 +205,7 @@ Result<void> FrameDrawer::draw_slice() {
     count_key(slice.triangle_count(), slice.indices.size(), slice.tested_count, surface_.uploaded_bytes());
     if (work_->is_last) {
         painter_->finish_key(work_->slot, surface_);
+        ++counts_.draw_call_count;
         director_->key_done(painter_->read_depth(work_->slot, grid_step()));
         is_whole_[work_->slot] = true;
     }
@@ -219,6 +224,7 @@ Result<void> FrameDrawer::draw_beside() {
     Result<KeyThread::Done> done = thread_->wait();
     if (!done) return tl::unexpected(done.error());
     count_key(done->triangle_count, done->vertex_reference_count, done->tested_count, done->uploaded_bytes);
+    ++counts_.draw_call_count;  // of its background
     director_->key_done(std::move(done->depths), done->triangle_count);
     is_whole_[work_->slot] = true;
     return {};
@@ -245,9 +251,7 @@ void FrameDrawer::plan() {
     novel_.near_error_px = plan_->near_error_px;
     counts_.triangle_count += plan_->cut->triangle_count();
     counts_.near_triangle_count = plan_->near_triangle_count;
-    counts_.vertex_reference_count += plan_->cut->indices.size();
     counts_.tested_count += plan_->cut->tested_count;
-    counts_.draw_call_count += plan_->own_weight > 0 ? 4 : 2;
     counts_.resident_bytes = painter_->resident_bytes();
     counts_.live_key_count = uint32_t(std::count(is_whole_.begin(), is_whole_.end(), true));
     counts_.used_key_count = uint32_t(plan_->keys.size());

@@ -30,11 +30,11 @@ void set(FrameOptions& options, std::string_view name, double value);
 
 // What one frame was: exact, and the same on every run, for the same frames before it.
 struct FrameCounts {
-    uint64_t triangle_count = 0;      // submitted, those drawn into keys included
+    uint64_t triangle_count = 0;      // of the frame's cut, and those drawn into keys; a frame draws its cut several times over
     uint64_t key_triangle_count = 0;  // of keys drawn by a thread, in the frame that gets them back
     uint64_t key_pixel_count = 0;     // of the keys begun
     uint64_t near_triangle_count = 0;
-    uint64_t vertex_reference_count = 0;
+    uint64_t vertex_reference_count = 0;  // submitted, by all passes
     uint64_t draw_call_count = 0;
     uint64_t tested_count = 0;
     uint64_t uploaded_bytes = 0;

@@ -103,6 +103,35 @@ TEST(LodSpriteFrames, BeginWithoutAKeyAndSayWhenOneTakesOver) {
     EXPECT_GT(key_triangles, 0u);
 }
 
+TEST(LodSpriteFrames, CountWhatEveryPassSubmits) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    FrameOptions options = fine_options();
+    lod_sprite::set(options, "near", 0);
+    auto frames = stage.frames(options);
+    gl::Target target = target_of();
+    uint32_t with_keys = 0;
+    for (uint32_t frame = 0; frame < 60; ++frame) {
+        FrameCounts counts = draw(*frames, stage.camera(frame), target);
+        if (counts.key_triangle_count > 0) continue;
+        // Beside the sky: its own colours; and with keys what all, then what some show, which fades twice.
+        uint64_t passes = counts.draw_call_count - 1;
+        EXPECT_EQ(counts.vertex_reference_count, 3 * passes * counts.triangle_count) << frame;
+        if (counts.used_key_count == 0) {
+            EXPECT_EQ(passes, 1u) << frame;
+        } else {
+            ++with_keys;
+            EXPECT_GE(passes, 3u) << frame;
+            EXPECT_LE(passes, 4u) << frame;
+        }
+    }
+    EXPECT_GT(with_keys, 0u);
+    frames->forget();
+    FrameCounts first = draw(*frames, stage.camera(0), target);
+    EXPECT_EQ(first.used_key_count, 0u);
+    EXPECT_GT(first.vertex_reference_count, 3 * first.key_triangle_count);
+}
+
 FrameOptions thread_options() {
     FrameOptions options = fine_options();
     options.decide.mode = KeyMode::thread;
