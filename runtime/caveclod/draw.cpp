@@ -27,6 +27,15 @@ view::Part part_of(const view::Camera& camera, const DrawOptions& options) {
     return options.part.value_or(view::Part{0, 0, camera.width_px, camera.height_px});
 }
 
+// What of a range lies among the next face_count; the range goes on behind them.
+gl::TriangleRange take_from(gl::TriangleRange& range, uint64_t face_count) {
+    gl::TriangleRange part{std::min(range.first, face_count), 0};
+    part.count = std::min(range.count, face_count - part.first);
+    range.first -= part.first;
+    range.count -= part.count;
+    return part;
+}
+
 float linear_of(uint8_t encoded) {
     double value = encoded / 255.0;
     return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
@@ -88,8 +97,10 @@ void CameraBuffers::take(std::span<const std::vector<uint32_t>> by_surface) {
     }
 }
 
-uint64_t CameraBuffers::draw_call_count() const {
-    return uint64_t(std::count_if(surfaces_.begin(), surfaces_.end(), [](const Indices& one) { return one.face_count > 0; }));
+uint64_t CameraBuffers::draw_call_count(gl::TriangleRange range) const {
+    uint64_t calls = 0;
+    for (const Indices& indices : surfaces_) calls += take_from(range, indices.face_count).count > 0;
+    return calls;
 }
 
 uint64_t CameraBuffers::triangle_count() const {
@@ -113,8 +124,19 @@ Result<Drawing> Drawing::make(const Mesh& mesh) {
     }
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the mesh does not fit into the renderer's memory");
     made.grid_.normal_bits = mesh.attributes().normals ? made.grid_.normal_bits : 0;
+    made.has_colours_ = made.colours_.id() != 0;
     made.nothing_ = gl::make_vertex_array();
     if (Result<void> looks = made.make_looks(mesh); !looks) return tl::unexpected(looks.error());
+    if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
+    return made;
+}
+
+Result<Drawing> Drawing::sharing(const Drawing& first) {
+    Drawing made;
+    made.origin_m_ = first.origin_m_, made.grid_ = first.grid_, made.vertex_count_ = first.vertex_count_;
+    made.has_colours_ = first.has_colours_;
+    made.first_ = &first;
+    made.nothing_ = gl::make_vertex_array();
     if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
     return made;
 }
@@ -170,7 +192,7 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform4f(program.at("part"), float(map.scale.x), float(map.scale.y), float(map.shift.x), float(map.shift.y));
     glUniform1ui(program.at("vertex_count"), vertex_count_);
     glUniform1ui(program.at("low_bits"), grid_.position_bits > 16 ? grid_.position_bits - 16 : 0);
-    glUniform1i(program.at("has_colours"), colours_.id() != 0 ? 1 : 0);
+    glUniform1i(program.at("has_colours"), has_colours_ ? 1 : 0);
     glUniform3i(program.at("camera_steps"), GLint(whole.x), GLint(whole.y), GLint(whole.z));
     glUniform3f(program.at("camera_rest"), float(rest.x), float(rest.y), float(rest.z));
     glUniform1f(program.at("step_m"), float(grid_.position_step_m));
@@ -182,17 +204,19 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
 }
 
 void Drawing::draw_with(const gl::Program& program, const CameraBuffers& buffers, const view::Camera& camera,
-                        const DrawOptions& options) const {
+                        const DrawOptions& options, gl::TriangleRange range) const {
+    const Drawing& on_card = first_ != nullptr ? *first_ : *this;
     program.use();
     set_camera(program, camera, options);
-    glBindTextureUnit(1, vertices_view_.id());
+    glBindTextureUnit(1, on_card.vertices_view_.id());
     glBindTextureUnit(2, buffers.glides_view_.id());
-    glBindTextureUnit(3, colours_.id() != 0 ? colours_view_.id() : vertices_view_.id());
+    glBindTextureUnit(3, has_colours_ ? on_card.colours_view_.id() : on_card.vertices_view_.id());
     glBindVertexArray(nothing_.id());
-    for (size_t i = 0; i < looks_.size(); ++i) {
+    for (size_t i = 0; i < on_card.looks_.size(); ++i) {
         const CameraBuffers::Indices& indices = buffers.surfaces_[i];
-        if (indices.face_count == 0) continue;
-        const Look& look = looks_[i];
+        gl::TriangleRange part = take_from(range, indices.face_count);
+        if (part.count == 0) continue;
+        const Look& look = on_card.looks_[i];
         if (options.culls_back_faces && !look.is_two_sided)
             glEnable(GL_CULL_FACE);
         else
@@ -201,7 +225,8 @@ void Drawing::draw_with(const gl::Program& program, const CameraBuffers& buffers
         glUniform4fv(program.at("base_colour"), 1, glm::value_ptr(look.colour));
         glUniform1f(program.at("alpha_cutoff"), look.alpha_cutoff);
         glVertexArrayElementBuffer(nothing_.id(), indices.buffer.id());
-        glDrawElements(GL_TRIANGLES, GLsizei(3 * indices.face_count), GL_UNSIGNED_INT, nullptr);
+        glDrawElements(GL_TRIANGLES, GLsizei(3 * part.count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(3 * sizeof(uint32_t) * part.first));
     }
     glDisable(GL_CULL_FACE);
 }

@@ -35,7 +35,7 @@ class CameraBuffers {
     void take(std::span<const std::vector<uint32_t>> by_surface);
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // by the last take()
     uint64_t triangle_count() const;
-    uint64_t draw_call_count() const;  // surfaces that have faces
+    uint64_t draw_call_count(gl::TriangleRange range = {}) const;  // surfaces that have faces, of these
 
   private:
     friend class Drawing;
@@ -59,6 +59,10 @@ class Drawing {
     // Fails with Exit::impossible if the mesh is too large for the renderer. Pictures that cannot be read (only PNG can) are left
     // out: their surfaces keep their colour; why stands in faults().
     static Result<Drawing> make(const Mesh& mesh);
+    // The same mesh for another context that shares the first's objects, current now: what the first put on the card is the
+    // first's, which must outlive it and stay where it is. So both may draw at once, each in its own thread. Fails with
+    // Exit::our_bug.
+    static Result<Drawing> sharing(const Drawing& first);
     const std::vector<std::string>& faults() const { return faults_; }
 
     // Draws a plain background and the faces into `target` and resolves it.
@@ -68,7 +72,7 @@ class Drawing {
     // What a method colours by itself, into whatever is bound.
     Result<gl::Program> program(const gl::SurfaceShader& shader) const;
     void draw_with(const gl::Program& program, const CameraBuffers& buffers, const view::Camera& camera,
-                   const DrawOptions& options) const;
+                   const DrawOptions& options, gl::TriangleRange range = {}) const;
     void draw_background(const view::Camera& camera, const DrawOptions& options) const;
 
   private:
@@ -86,6 +90,8 @@ class Drawing {
     glm::dvec3 origin_m_{0};
     Grid grid_;
     uint32_t vertex_count_ = 0;
+    bool has_colours_ = false;
+    const Drawing* first_ = nullptr;  // whose buffers and pictures it draws with, where it has none
     gl::Buffer vertices_, colours_;
     gl::Texture vertices_view_, colours_view_;
     gl::VertexArray nothing_;
@@ -101,15 +107,19 @@ class MeshSurface : public gl::Surface {
         : drawing_(drawing), buffers_(buffers), options_(options) {}
 
     Result<gl::Program> program(const gl::SurfaceShader& shader) const override { return drawing_.program(shader); }
+    // Only these of what the buffers hold, surface by surface.
+    void take_range(gl::TriangleRange range) { range_ = range; }
     void draw(const gl::Program& program, const view::Camera& camera) override {
-        drawing_.draw_with(program, buffers_, camera, options_);
+        drawing_.draw_with(program, buffers_, camera, options_, range_);
     }
+    uint64_t draw_call_count() const override { return buffers_.draw_call_count(range_); }
     void draw_background(const view::Camera& camera) override { drawing_.draw_background(camera, options_); }
 
   private:
     const Drawing& drawing_;
     const CameraBuffers& buffers_;
     DrawOptions options_;
+    gl::TriangleRange range_;
 };
 
 }  // namespace overlook::caveclod

@@ -196,8 +196,9 @@ void Refinement::operate(Frame& frame) {
             frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
 }
 
-FrameReport Refinement::refine(const view::Camera& camera, const Settings& settings, double dt_s) {
-    ScreenTest test(mesh_, camera, settings);
+FrameReport Refinement::refine(const view::Camera& camera, const Settings& settings, double dt_s,
+                               const view::FinerParts* finer) {
+    ScreenTest test(mesh_, camera, settings, finer);
     Frame frame{test, settings, {}, false, settings.most_operations > 0 ? settings.most_operations : ~uint64_t(0)};
     frame.keeps_reserve = settings.most_triangles > 0 && faces_.face_count() * 8 > settings.most_triangles * 7;
     splits_.clear(), collapses_.clear(), reserve_.clear();

@@ -17,6 +17,7 @@
 #include "runtime/caveclod/mesh.h"
 #include "runtime/caveclod/settings.h"
 #include "runtime/view/camera.h"
+#include "runtime/view/pixel_detail.h"
 
 namespace overlook::caveclod {
 
@@ -59,8 +60,10 @@ class Refinement {
     explicit Refinement(const Mesh& mesh);
 
     // Brings the faces nearer to what the camera asks for, by most_operations at most. dt_s >= 0: time since the last frame, for
-    // glides. Cost: O(splits / 64) + O(evaluated) + O(operations * log(operations)).
-    FrameReport refine(const view::Camera& camera, const Settings& settings, double dt_s);
+    // glides. finer: parts of the picture that keep another error, less than settings.error_px; null = none. Cost:
+    // O(splits / 64) + O(evaluated) + O(operations * log(operations)).
+    FrameReport refine(const view::Camera& camera, const Settings& settings, double dt_s,
+                       const view::FinerParts* finer = nullptr);
 
     const FaceSlots& faces() const { return faces_; }
     std::span<const GlideVertex> glide_vertices() const { return glide_vertices_; }

@@ -11,6 +11,7 @@
 #include "runtime/caveclod/mesh.h"
 #include "runtime/caveclod/settings.h"
 #include "runtime/view/camera.h"
+#include "runtime/view/pixel_detail.h"
 #include "runtime/view/pixel_error.h"
 
 namespace overlook::caveclod {
@@ -18,9 +19,10 @@ namespace overlook::caveclod {
 // Everything is taken from a split's sphere and cone, which hold all that it and whatever needs it touch: what is not wanted of a
 // split need not be asked of those. Wanting to split and wanting to collapse leave a band between them in which nothing changes:
 // in pixels, in the frame's borders (H. Hoppe 1997, view frustum and surface orientation), and in how far a cone turns away.
+// finer: parts of the picture that keep another error, less than the settings'; none where it is null.
 class ScreenTest {
   public:
-    ScreenTest(const Mesh& mesh, const view::Camera& camera, const Settings& settings)
+    ScreenTest(const Mesh& mesh, const view::Camera& camera, const Settings& settings, const view::FinerParts* finer = nullptr)
         : mesh_(mesh),
           bound_(camera),
           eye_m_(camera.position_m),
@@ -29,7 +31,8 @@ class ScreenTest {
           collapse_share_(settings.collapse_share),
           enter_share_(settings.glide_s > 0 ? kGlideEnter : 1),
           tests_cones_(settings.culls_back_faces || silhouette_px_ < split_px_),
-          culls_back_faces_(settings.culls_back_faces) {
+          culls_back_faces_(settings.culls_back_faces),
+          finer_(finer != nullptr && !finer->is_empty() ? finer : nullptr) {
         focal_px_ = view::focal_px(camera), corner_secant_ = view::corner_secant(camera), near_m_ = camera.near_m;
         keep_reach_ = focal_px_ / (settings.error_px * settings.collapse_share) * (1 - kRounding);
         double half_y = camera.fov_y_deg * std::numbers::pi / 360;
@@ -51,7 +54,7 @@ class ScreenTest {
         bool must_split = false, wants_split = false, wants_collapse = true;
     };
     // What nothing that is left unsplit may exceed, wherever it is.
-    double least_limit_px() const { return silhouette_px_; }
+    double least_limit_px() const { return finer_ != nullptr ? std::min(silhouette_px_, finer_->error_px()) : silhouette_px_; }
 
     Answer operator()(uint32_t split) const {
         const Bounds& bounds = mesh_.bounds(split);
@@ -70,6 +73,10 @@ class ScreenTest {
             if (tight == Facing::both) limit_px = silhouette_px_;
             if (loose == Facing::both) keep_px = silhouette_px_;
         }
+        if (finer_ != nullptr && answer.error_px > finer_->error_px() * collapse_share_ && finer_->touch(place, radius_m)) {
+            limit_px = std::min(limit_px, finer_->error_px());
+            keep_px = std::min(keep_px, finer_->error_px());
+        }
         bool is_seen = !is_hidden && narrow_.holds(place, radius_m);
         answer.seen_error_px = is_seen ? answer.error_px : 0;
         answer.must_split = is_seen && answer.error_px > limit_px;
@@ -87,7 +94,7 @@ class ScreenTest {
         if (!(limit_px > 0)) return std::numeric_limits<double>::infinity();
         return corner_secant_ * (1 + focal_px_ * corner_secant_ / limit_px) * (1 + kRounding);
     }
-    double least_split_px() const { return std::min(split_px_, silhouette_px_) * enter_share_; }
+    double least_split_px() const { return std::min(split_px_, least_limit_px()) * enter_share_; }
     bool is_within(uint32_t split, double reach) const {
         double error_m = mesh_.error_m(split), far_m = mesh_.radius_m(split) + (error_m > 0 ? error_m * reach : 0);
         glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
@@ -143,6 +150,7 @@ class ScreenTest {
     glm::dvec3 eye_m_;
     double split_px_, silhouette_px_, collapse_share_, enter_share_;
     bool tests_cones_, culls_back_faces_;
+    const view::FinerParts* finer_;
     double focal_px_ = 1, corner_secant_ = 1, near_m_ = 1, keep_reach_ = 0;
     Sector narrow_, wide_;
     std::array<double, 256> sines_{}, cosines_{};

@@ -1,6 +1,7 @@
 // What a method that colours pixels by itself needs of the things that are drawn: LOD-sprite's sprite sits on any of them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "runtime/gl/program.h"
@@ -20,6 +21,11 @@ struct SurfaceShader {
     std::string fragment;
 };
 
+// Some of a thing's triangles, in their order.
+struct TriangleRange {
+    uint64_t first = 0, count = ~uint64_t(0);  // as far as there are
+};
+
 // Texture units below this one are the thing's own.
 constexpr unsigned kFirstFreeUnit = 4;
 
@@ -32,6 +38,7 @@ class Surface {
     virtual Result<Program> program(const SurfaceShader& shader) const = 0;
     // Draws with a program of this surface, in use, whose own uniforms and textures are set, into whatever is bound.
     virtual void draw(const Program& program, const view::Camera& camera) = 0;
+    virtual uint64_t draw_call_count() const = 0;  // by draw()
     // Fills the pixels in which nothing is drawn yet with what is behind everything; their depth stays as far as it was.
     virtual void draw_background(const view::Camera& camera) = 0;
 };

@@ -10,8 +10,8 @@ constexpr double kRoom = 1.5;  // a key promises so much better than frames from
 
 }  // namespace
 
-Director::Director(const terrain::Refiner& refiner, const Settings& settings)
-    : refiner_(refiner), settings_(settings), spending_(settings.triangles), slots_(settings.slots) {
+Director::Director(Geometry& geometry, const Settings& settings)
+    : geometry_(geometry), settings_(settings), spending_(settings.triangles), slots_(settings.slots) {
     assert(settings.slots >= 2);
 }
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/lod_sprite/geometry.h"
 #include "runtime/lod_sprite/pose_track.h"
 #include "runtime/lod_sprite/reuse.h"
 #include "runtime/lod_sprite/shown.h"
 #include "runtime/lod_sprite/spending.h"
-#include "runtime/terrain/refine.h"
 
 namespace overlook::lod_sprite {
 
@@ -35,8 +35,9 @@ struct Settings {
     uint32_t slots = 4;         // keys kept, the one being made among them; at least 2
     uint32_t most_slices = 48;
     uint32_t fade_frames = 8;  // over which a new key takes over from the old; 0 = at once
-    double morph = 0;          // of the coarse cut (terrain::Refiner::cut_by_pixels)
+    double morph = 0;          // of the coarse cut (view::PixelDetail)
     KeyMode mode = KeyMode::sliced;
+    bool keeps_outlines = true;  // of things whose coarse cut is not raised: refined along them (view::PixelDetail)
     bool closes_open = true;  // what no key is proven to show is drawn finer than the coarse cut (shown.h)
     bool draws_near = true;   // what keys could not serve for their life is drawn as geometry
     // That a frame may draw, those into keys included (of sliced keys: spending.h); 0 = as many as its errors take.
@@ -50,7 +51,7 @@ enum class Cause { none, first, jump, error, magnified, turned };
 struct KeyWork {
     uint32_t slot = 0;
     const view::Camera* begin = nullptr;  // not null: the slot is emptied for this camera first
-    const terrain::Cut* slice = nullptr;  // what to add to it; null where another thread is to draw the whole of it
+    std::optional<CutCount> slice;        // the geometry's slice is to be added; none where another thread is to draw the whole
     double error_px = 0;                  // what the key's whole cut promises its camera
     bool is_last = false;                 // the key is whole then, or to be waited for; Director::key_done() is to be told
 };
@@ -62,8 +63,8 @@ struct NovelUse {
 
 // What a novel frame is made of.
 struct Novel {
-    const terrain::Cut* cut = nullptr;
-    uint64_t near_triangle_count = 0;  // the cut's first so many lie nearer than near_depth_m all through
+    CutCount cut;                      // the geometry's coarse cut
+    uint64_t near_triangle_count = 0;  // its first so many lie nearer than near_depth_m all through
     std::vector<NovelUse> keys;
     double near_depth_m = 0;
     double own_weight = 0;                        // of the surface's own colours, where the first key alone shows a pixel
@@ -78,8 +79,8 @@ struct Novel {
 
 class Director {
   public:
-    // The refiner must outlive it.
-    Director(const terrain::Refiner& refiner, const Settings& settings);
+    // The geometry must outlive it, and be cut by nobody else.
+    Director(Geometry& geometry, const Settings& settings);
 
     // Each frame: key_work() until it gives none, each carried out at once; then novel(). It gives one at most, unless a budget
     // leaves triangles for the next key as well. The camera's size must stay the same, or forget() be called. The pointers hold
@@ -113,7 +114,6 @@ class Director {
         bool is_begun = false;
         uint64_t drawn_triangles = 0;
         uint32_t frames_to_go = 1;
-        std::optional<terrain::SlicedCut> cut;
     };
 
     void judge_keys();
@@ -141,10 +141,9 @@ class Director {
     uint64_t slice_triangles();
     bool shows_key() const;
     void cut_coarse();
-    void put_near_first();
     bool begin_frame(const view::Camera& camera);
 
-    const terrain::Refiner& refiner_;
+    Geometry& geometry_;
     Settings settings_;
     Spending spending_;
     PoseTrack track_;
@@ -164,8 +163,6 @@ class Director {
     uint64_t keys_made_ = 0, slice_triangles_ = 0;
     bool has_drawn_ = false;  // a frame since it forgot
     Cause took_over_ = Cause::none;
-    terrain::Cut slice_, low_;
-    std::vector<uint32_t> far_indices_;
     Novel novel_;
 };
 

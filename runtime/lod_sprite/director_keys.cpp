@@ -71,7 +71,7 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     making_.emplace();
     making_->slot = slot;
     making_->cause = cause;
-    if (settings_.mode != KeyMode::thread) making_->cut.emplace(refiner_, into.key.camera, into.key.error_px);
+    if (settings_.mode != KeyMode::thread) geometry_.begin_key(into.key.camera, into.key.error_px);
 }
 
 // Whether a budget is all used, for keys as fresh as there are triangles for. A camera that stands still needs no fresh ones.
@@ -136,17 +136,16 @@ bool Director::is_key_begun() {
 }
 
 std::optional<KeyWork> Director::slice_work() {
-    uint64_t wanted = slice_triangles();
-    making_->cut->next(wanted, slice_);
-    slice_triangles_ += slice_.triangle_count();
-    making_->drawn_triangles += slice_.triangle_count();
+    Geometry::Slice slice = geometry_.next_slice(slice_triangles());
+    slice_triangles_ += slice.count.triangle_count;
+    making_->drawn_triangles += slice.count.triangle_count;
     KeyWork work;
     work.slot = making_->slot;
     if (!making_->is_begun) work.begin = &slots_[making_->slot].key.camera;
     making_->is_begun = true;
-    work.slice = &slice_;
+    work.slice = slice.count;
     work.error_px = slots_[making_->slot].key.error_px;
-    work.is_last = making_->cut->is_done();
+    work.is_last = slice.is_last;
     return work;
 }
 

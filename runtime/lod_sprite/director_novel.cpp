@@ -30,30 +30,6 @@ bool sees_all(const view::Camera& key, const view::Camera& camera, double from_m
 
 }  // namespace
 
-// Of the coarse cut's triangles those all of whose corners are near come first.
-void Director::put_near_first() {
-    novel_.near_triangle_count = 0;
-    if (novel_.near_depth_m <= 0) return;
-    view::Axes axes = view::axes_of(camera_);
-    far_indices_.clear();
-    size_t kept = 0;
-    for (size_t i = 0; i < low_.indices.size(); i += 3) {
-        double farthest_m = 0;
-        for (size_t j = i; j < i + 3; ++j) {
-            glm::dvec3 away_m = refiner_.vertex_m(low_, low_.indices[j]) - camera_.position_m;
-            farthest_m = std::max(farthest_m, glm::dot(away_m, axes.forward));
-        }
-        if (farthest_m < novel_.near_depth_m) {
-            std::copy_n(&low_.indices[i], 3, &low_.indices[kept]);
-            kept += 3;
-        } else {
-            far_indices_.insert(far_indices_.end(), &low_.indices[i], &low_.indices[i] + 3);
-        }
-    }
-    std::copy(far_indices_.begin(), far_indices_.end(), low_.indices.begin() + ptrdiff_t(kept));
-    novel_.near_triangle_count = kept / 3;
-}
-
 // Of the picture, where the surface's own colours are seen: where no key that is looked into shows what is there, or where a key
 // fades in over none.
 view::PictureMask Director::open_parts() const {
@@ -95,11 +71,10 @@ void Director::cut_coarse() {
         double coarser = spending_.coarser(is_coarse);
         novel_.near_error_px = fine_error_px() * coarser;
         novel_.low_error_px = is_coarse ? settings_.low_error_px * coarser : novel_.near_error_px;
-        refiner_.cut_by_pixels(camera_,
-                               {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px,
-                                novel_.finer_outside, novel_.finer_in},
-                               low_);
-        fits = spending_.coarse_done(is_coarse, low_.triangle_count());
+        novel_.cut = geometry_.cut_coarse(
+            camera_, {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px, novel_.finer_outside,
+                      novel_.finer_in, settings_.keeps_outlines});
+        fits = spending_.coarse_done(is_coarse, novel_.cut.triangle_count);
     }
 }
 
@@ -113,7 +88,7 @@ const Novel& Director::novel() {
     // Within a budget the cut is there, unless another key has taken over since.
     if (!is_cut_) cut_coarse();
     is_cut_ = false;
-    put_near_first();
+    novel_.near_triangle_count = geometry_.put_near_first(camera_, novel_.near_depth_m);
     bool has_key = shows_key();
     novel_.error_p99_px = has_key ? current_reuse_.drawn_p99_px : novel_.near_error_px;
     novel_.error_max_px = has_key ? current_reuse_.drawn_max_px : novel_.near_error_px;
@@ -130,7 +105,6 @@ const Novel& Director::novel() {
         novel_.own_weight = fade;
         if (fade_left_ > 0) --fade_left_;
     }
-    novel_.cut = &low_;
     return novel_;
 }
 

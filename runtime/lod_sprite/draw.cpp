@@ -84,8 +84,9 @@ Result<gl::Program> key_program(const gl::Surface& surface) {
     return surface.program({"key", "", gl::shaders::kShadedMain});  // a key keeps the picture as it is shown, air and all
 }
 
-Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots) {
+Result<Painter> Painter::make(const gl::Surface& surface, uint32_t slots, bool is_error_vertical) {
     Painter made;
+    made.is_error_vertical_ = is_error_vertical;
     made.sprites_.resize(slots);
     Result<gl::Program> key = key_program(surface);
     if (!key) return tl::unexpected(key.error());
@@ -149,11 +150,12 @@ Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const
         if (pass == Pass::whole_keys) fragment += "#define WHOLE\n";
         if (options.shows_sources) fragment += "#define SHOWS_SOURCES\n";
         if (options.is_mask) fragment += fmt::format("#define MASK_OWN {}\n#define MASK_NEAR {}\n", kMaskOwn, kMaskNear);
-        fragment += shaders::kSlack;
+        std::string slack = std::string(is_error_vertical_ ? "#define ERROR_IS_VERTICAL\n" : "") + shaders::kSlack;
+        fragment += slack;
         if (keys > 0) fragment += shaders::kFind;
         fragment += raises ? shaders::kNovelMain : shaders::kOwnMain;
         Result<gl::Program> made = surface.program({fmt::format("novel view with {} keys", keys),
-                                                    raises ? std::string(shaders::kSlack) + shaders::kRaised : "", fragment});
+                                                    raises ? slack + shaders::kRaised : "", fragment});
         if (!made) return tl::unexpected(made.error());
         known = programs_.emplace(name, std::move(*made)).first;
     }
@@ -194,7 +196,7 @@ void Painter::set_uniforms(const gl::Program& program, const view::Camera& camer
 }
 
 Result<void> Painter::draw_pass(Pass pass, gl::Surface* surface, const view::Camera& camera, const NovelOptions& options) {
-    bool shows_keys = pass == Pass::keys || pass == Pass::whole_keys, raises = shows_keys && options.raises;
+    bool shows_keys = pass == Pass::keys || pass == Pass::whole_keys, raises = shows_keys && options.raises && is_error_vertical_;
     if (surface == nullptr || (shows_keys && options.keys.empty())) return {};
     Result<const gl::Program*> program = program_of(*surface, options, pass);
     if (!program) return tl::unexpected(program.error());

@@ -41,7 +41,7 @@ struct NovelOptions {
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
     double most_texel_px = 1.5;  // how wide a texel may have become
     uint32_t look_ups = 3;       // a pixel and key at most; 0 = it is where the coarse surface is
-    bool raises = true;          // the coarse surface up to where it covers the true one, so that outlines are kept
+    bool raises = true;          // where errors are vertical: the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
     bool tests_places = true;    // a texel counts only where it is in its own place in this frame
     bool shows_sources = false;  // grey: the first key; yellow: another; blue: near; red: no key shows it
@@ -70,8 +70,9 @@ Result<gl::Program> key_program(const gl::Surface& surface);
 // Draws into keys and novel frames. A context must be current whenever it is used, and when it goes.
 class Painter {
   public:
-    // slots: how many keys are kept. Fails with Exit::our_bug where a shader does not compile.
-    static Result<Painter> make(const gl::Surface& surface, uint32_t slots);
+    // slots: how many keys are kept. is_error_vertical: as Geometry says of what is drawn; otherwise it may be in any direction,
+    // and nothing is raised. Fails with Exit::our_bug where a shader does not compile.
+    static Result<Painter> make(const gl::Surface& surface, uint32_t slots, bool is_error_vertical = true);
 
     // Makes room in a slot for a key of this camera, whose picture has camera.width_px * scale columns. Fails with
     // Exit::impossible where the renderer cannot have such a picture.
@@ -115,6 +116,7 @@ class Painter {
     void set_uniforms(const gl::Program& program, const view::Camera& camera, const NovelOptions& options, bool raises) const;
 
     std::vector<Sprite> sprites_;
+    bool is_error_vertical_ = true;
     Passes passes_;
     gl::Program key_program_;
     std::map<uint32_t, gl::Program> programs_;  // by pass, keys, look-ups and what is shown

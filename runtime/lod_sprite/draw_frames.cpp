@@ -47,7 +47,7 @@ std::vector<KnownSetting> make_settings() {
         {number("morph", 0, 1, is.decide.morph, true), [](Options& o, double v) { o.decide.morph = v; }},
         {number("tolerance-px", 0.05, 10, is.draw.tolerance_px, true), [](Options& o, double v) { o.draw.tolerance_px = v; }},
         {whole("look-ups", 0, 16, is.draw.look_ups), [](Options& o, double v) { o.draw.look_ups = uint32_t(v); }},
-        {on_off("outlines", is.draw.raises), [](Options& o, double v) { o.draw.raises = v != 0; }},
+        {on_off("outlines", is.draw.raises), [](Options& o, double v) { o.draw.raises = o.decide.keeps_outlines = v != 0; }},
         {on_off("slab-test", is.draw.tests_slab), [](Options& o, double v) { o.draw.tests_slab = v != 0; }},
         {on_off("place-test", is.draw.tests_places), [](Options& o, double v) { o.draw.tests_places = v != 0; }},
         {whole("triangles", 0, 1e9, is.decide.triangles), [](Options& o, double v) { o.decide.triangles = v; }},
@@ -84,22 +84,23 @@ std::string_view name_of(Cause cause) {
     return kNames[size_t(cause)];
 }
 
-Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const terrain::Refiner& refiner, terrain::Drawing& ground,
-                                                       const FrameOptions& options, const gl::SecondContextMaker& second) {
-    std::unique_ptr<FrameDrawer> made(new FrameDrawer(refiner, ground, options));
-    Result<Painter> painter = Painter::make(made->surface_, options.decide.slots);
+Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(std::unique_ptr<DrawnGeometry> thing, const FrameOptions& options,
+                                                       const gl::SecondContextMaker& second) {
+    std::unique_ptr<FrameDrawer> made(new FrameDrawer(std::move(thing), options));
+    const DrawnGeometry& drawn = *made->thing_;
+    Result<Painter> painter =
+        Painter::make(made->thing_->far(), options.decide.slots, made->thing_->geometry().is_error_vertical());
     if (!painter) return tl::unexpected(painter.error());
     made->painter_ = std::move(*painter);
     if (options.decide.mode == KeyMode::thread) {
-        Result<std::unique_ptr<KeyThread>> thread = KeyThread::start(refiner, ground, options.look, second);
+        Result<std::unique_ptr<KeyThread>> thread = KeyThread::start(drawn, second);
         if (!thread) return tl::unexpected(thread.error());
         made->thread_ = std::move(*thread);
     }
     return made;
 }
 
-FrameDrawer::FrameDrawer(const terrain::Refiner& refiner, terrain::Drawing& ground, const FrameOptions& options)
-    : refiner_(refiner), surface_(ground, options.look), near_surface_(ground, options.look) {
+FrameDrawer::FrameDrawer(std::unique_ptr<DrawnGeometry> thing, const FrameOptions& options) : thing_(std::move(thing)) {
     settle(options);
 }
 
@@ -109,7 +110,7 @@ void FrameDrawer::settle(const FrameOptions& options) {
     novel_.low_error_px = settings_.low_error_px;
     novel_.near_error_px = settings_.error_px;
     novel_.most_texel_px = settings_.most_magnified;
-    novel_.most_slack_m = refiner_.highest_m() - refiner_.lowest_m();
+    novel_.most_slack_m = thing_->geometry().most_slack_m();
     forget();
 }
 
@@ -127,7 +128,7 @@ void FrameDrawer::set_triangles(double triangles) {
 // A director keeps what it learned of earlier keys, which a fresh one does not know.
 void FrameDrawer::forget() {
     if (thread_) thread_->drop();
-    director_.emplace(refiner_, settings_);
+    director_.emplace(thing_->geometry(), settings_);
     is_whole_.assign(settings_.slots, false);
     work_.reset();
     plan_ = nullptr;
@@ -152,20 +153,19 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
     }
     if (Result<void> drawn = paint(target, novel_); !drawn) return tl::unexpected(drawn.error());
     FrameCounts counts = counts_;
-    counts.uploaded_bytes += surface_.uploaded_bytes();
+    counts.uploaded_bytes += uploaded_bytes_;
     const Painter::Passes& passes = painter_->passes();
-    uint64_t near = plan_->near_triangle_count, far = plan_->cut->triangle_count() - near;
+    uint64_t near = plan_->near_triangle_count, far = plan_->cut.triangle_count - near;
     counts.vertex_reference_count += 3 * (passes.near * near + passes.far * far);
-    counts.draw_call_count += passes.all();
+    counts.draw_call_count +=
+        passes.near * thing_->near().draw_call_count() + passes.far * thing_->far().draw_call_count() + passes.background;
     return counts;
 }
 
 Result<void> FrameDrawer::paint(const gl::Target& target, const NovelOptions& options) {
-    surface_.take(*plan_->cut);
-    surface_.take_range({plan_->near_triangle_count});
-    near_surface_.take_range({0, plan_->near_triangle_count});
-    gl::Surface* near = plan_->near_triangle_count > 0 ? &near_surface_ : nullptr;
-    return painter_->draw(target, near, surface_, camera_, options);
+    uploaded_bytes_ = thing_->take_coarse(plan_->near_triangle_count);  // others may have drawn the thing meanwhile
+    gl::Surface* near = plan_->near_triangle_count > 0 ? &thing_->near() : nullptr;
+    return painter_->draw(target, near, thing_->far(), camera_, options);
 }
 
 std::vector<view::Camera> FrameDrawer::texel_cameras() const {
@@ -198,13 +198,11 @@ Result<void> FrameDrawer::draw_slice() {
         Result<void> begun = painter_->begin_key(work_->slot, *work_->begin, settings_.scale);
         if (!begun) return begun;
     }
-    surface_.take(*work_->slice);
-    surface_.take_range({});
-    painter_->draw_into_key(work_->slot, surface_);
-    const terrain::Cut& slice = *work_->slice;
-    count_key(slice.triangle_count(), slice.indices.size(), slice.tested_count, surface_.uploaded_bytes());
+    uint64_t uploaded_bytes = thing_->take_slice();
+    painter_->draw_into_key(work_->slot, thing_->slice());
+    count_key(*work_->slice, thing_->slice().draw_call_count(), uploaded_bytes);
     if (work_->is_last) {
-        painter_->finish_key(work_->slot, surface_);
+        painter_->finish_key(work_->slot, thing_->slice());
         ++counts_.draw_call_count;
         director_->key_done(painter_->read_depth(work_->slot, grid_step()));
         is_whole_[work_->slot] = true;
@@ -223,20 +221,19 @@ Result<void> FrameDrawer::draw_beside() {
     }
     Result<KeyThread::Done> done = thread_->wait();
     if (!done) return tl::unexpected(done.error());
-    count_key(done->triangle_count, done->vertex_reference_count, done->tested_count, done->uploaded_bytes);
+    count_key(done->count, done->draw_call_count, done->uploaded_bytes);
     ++counts_.draw_call_count;  // of its background
-    director_->key_done(std::move(done->depths), done->triangle_count);
+    director_->key_done(std::move(done->depths), done->count.triangle_count);
     is_whole_[work_->slot] = true;
     return {};
 }
 
-void FrameDrawer::count_key(uint64_t triangle_count, uint64_t vertex_reference_count, uint64_t tested_count,
-                            uint64_t uploaded_bytes) {
-    counts_.key_triangle_count += triangle_count;
-    counts_.triangle_count += triangle_count;
-    counts_.vertex_reference_count += vertex_reference_count;
-    counts_.tested_count += tested_count;
-    ++counts_.draw_call_count;
+void FrameDrawer::count_key(const CutCount& count, uint64_t draw_call_count, uint64_t uploaded_bytes) {
+    counts_.key_triangle_count += count.triangle_count;
+    counts_.triangle_count += count.triangle_count;
+    counts_.vertex_reference_count += 3 * count.triangle_count;
+    counts_.tested_count += count.tested_count;
+    counts_.draw_call_count += draw_call_count;
     counts_.uploaded_bytes += uploaded_bytes;
 }
 
@@ -249,9 +246,9 @@ void FrameDrawer::plan() {
     novel_.own_weight = plan_->own_weight;
     novel_.low_error_px = plan_->low_error_px;
     novel_.near_error_px = plan_->near_error_px;
-    counts_.triangle_count += plan_->cut->triangle_count();
+    counts_.triangle_count += plan_->cut.triangle_count;
     counts_.near_triangle_count = plan_->near_triangle_count;
-    counts_.tested_count += plan_->cut->tested_count;
+    counts_.tested_count += plan_->cut.tested_count;
     counts_.resident_bytes = painter_->resident_bytes();
     counts_.live_key_count = uint32_t(std::count(is_whole_.begin(), is_whole_.end(), true));
     counts_.used_key_count = uint32_t(plan_->keys.size());

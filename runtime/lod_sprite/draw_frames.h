@@ -1,5 +1,5 @@
-// LOD-sprite over a terrain, frame by frame: what decides (director.h), what draws (draw.h) and the surface, put together in the
-// one way in which everybody uses them.
+// LOD-sprite frame by frame: what decides (director.h), what draws (draw.h) and the thing that is drawn (draw_geometry.h), put
+// together in the one way in which everybody uses them.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,14 @@
 #include "formats/setting.h"
 #include "runtime/lod_sprite/director.h"
 #include "runtime/lod_sprite/draw.h"
+#include "runtime/lod_sprite/draw_geometry.h"
 #include "runtime/lod_sprite/draw_key_thread.h"
-#include "runtime/terrain/draw.h"
 
 namespace overlook::lod_sprite {
 
 struct FrameOptions {
     Settings decide;
     NovelOptions draw;  // low and near error, near depth and slack are settled by the frames
-    terrain::DrawOptions look;
 };
 
 // All that people may set of it, with the defaults of the structs above.
@@ -53,14 +52,13 @@ std::string_view name_of(Cause cause);
 // picture. A context must be current, also when it goes.
 class FrameDrawer {
   public:
-    // Both must outlive it. second: how KeyMode::thread comes by its context. Fails as Painter::make and KeyThread::start.
-    static Result<std::unique_ptr<FrameDrawer>> make(const terrain::Refiner& refiner, terrain::Drawing& ground,
-                                                     const FrameOptions& options,
+    // second: how KeyMode::thread comes by its context. Fails as Painter::make and KeyThread::start.
+    static Result<std::unique_ptr<FrameDrawer>> make(std::unique_ptr<DrawnGeometry> thing, const FrameOptions& options,
                                                      const gl::SecondContextMaker& second = gl::second_context);
     FrameDrawer(const FrameDrawer&) = delete;
     FrameDrawer& operator=(const FrameDrawer&) = delete;
 
-    // camera: in the terrain's own frame, of the size of the target. Another size than the frame's before forgets all keys.
+    // camera: in the thing's own frame, of the size of the target. Another size than the frame's before forgets all keys.
     void decide(const view::Camera& camera);
     // Draws and resolves; need not wait until it is drawn. Fails as Painter::begin_key and Painter::draw.
     Result<FrameCounts> draw(const gl::Target& target);
@@ -80,18 +78,17 @@ class FrameDrawer {
     void show_sources(bool shows) { novel_.shows_sources = shows; }
 
   private:
-    FrameDrawer(const terrain::Refiner& refiner, terrain::Drawing& ground, const FrameOptions& options);
+    FrameDrawer(std::unique_ptr<DrawnGeometry> thing, const FrameOptions& options);
     void settle(const FrameOptions& options);
     Result<void> draw_key();
     Result<void> draw_slice();
     Result<void> draw_beside();
-    void count_key(uint64_t triangle_count, uint64_t vertex_reference_count, uint64_t tested_count, uint64_t uploaded_bytes);
+    void count_key(const CutCount& count, uint64_t draw_call_count, uint64_t uploaded_bytes);
     void plan();
     Result<void> paint(const gl::Target& target, const NovelOptions& options);
     uint32_t grid_step() const;
 
-    const terrain::Refiner& refiner_;
-    terrain::CutSurface surface_, near_surface_;
+    std::unique_ptr<DrawnGeometry> thing_;
     Settings settings_;
     NovelOptions novel_;
     std::optional<Director> director_;
@@ -103,6 +100,7 @@ class FrameDrawer {
     const Novel* plan_ = nullptr;
     bool is_drawn_ = false;
     FrameCounts counts_;
+    uint64_t uploaded_bytes_ = 0;  // by the picture painted last
 };
 
 }  // namespace overlook::lod_sprite

@@ -1,37 +1,34 @@
 #include "runtime/lod_sprite/draw_key_thread.h"
 
 #include <cassert>
+#include <limits>
 #include <utility>
 
 namespace overlook::lod_sprite {
 
 // What the thread has for itself, made and ended with its context current.
 struct KeyThread::Worker {
-    terrain::Drawing ground;
-    terrain::CutSurface surface;
+    std::unique_ptr<DrawnGeometry> thing;
     gl::Program program;
-    terrain::Cut cut;
 
-    Worker(terrain::Drawing own, const terrain::DrawOptions& look) : ground(std::move(own)), surface(ground, look) {}
-
-    static Result<std::unique_ptr<Worker>> make(const terrain::Drawing& shared, const terrain::DrawOptions& look) {
-        Result<terrain::Drawing> own = terrain::Drawing::sharing(shared);
+    static Result<std::unique_ptr<Worker>> make(const DrawnGeometry& shared) {
+        auto made = std::make_unique<Worker>();
+        Result<std::unique_ptr<DrawnGeometry>> own = shared.sharing();
         if (!own) return tl::unexpected(own.error());
-        auto made = std::make_unique<Worker>(std::move(*own), look);
-        Result<gl::Program> program = key_program(made->surface);
+        made->thing = std::move(*own);
+        Result<gl::Program> program = key_program(made->thing->slice());
         if (!program) return tl::unexpected(program.error());
         made->program = std::move(*program);
         return made;
     }
 };
 
-Result<std::unique_ptr<KeyThread>> KeyThread::start(const terrain::Refiner& refiner, const terrain::Drawing& ground,
-                                                    const terrain::DrawOptions& look, const gl::SecondContextMaker& second) {
+Result<std::unique_ptr<KeyThread>> KeyThread::start(const DrawnGeometry& thing, const gl::SecondContextMaker& second) {
     Result<std::unique_ptr<gl::SecondContext>> context = second();
     if (!context) return tl::unexpected(context.error());
-    glFinish();  // the other context is to see heights and texture whole
-    std::unique_ptr<KeyThread> made(new KeyThread(refiner, look, std::move(*context)));
-    made->thread_ = std::thread([thread = made.get(), &ground] { thread->run(ground); });
+    glFinish();  // the other context is to see what is on the card whole
+    std::unique_ptr<KeyThread> made(new KeyThread(std::move(*context)));
+    made->thread_ = std::thread([thread = made.get(), &thing] { thread->run(thing); });
     std::unique_lock lock(made->mutex_);
     made->changed_.wait(lock, [&] { return made->started_.has_value(); });
     if (!*made->started_) {
@@ -42,10 +39,6 @@ Result<std::unique_ptr<KeyThread>> KeyThread::start(const terrain::Refiner& refi
     lock.unlock();
     return made;
 }
-
-KeyThread::KeyThread(const terrain::Refiner& refiner, const terrain::DrawOptions& look,
-                     std::unique_ptr<gl::SecondContext> context)
-    : refiner_(refiner), look_(look), context_(std::move(context)) {}
 
 KeyThread::~KeyThread() {
     {
@@ -81,14 +74,14 @@ void KeyThread::drop() {
     if (is_under_way_) static_cast<void>(wait());
 }
 
-void KeyThread::run(const terrain::Drawing& ground) {
+void KeyThread::run(const DrawnGeometry& thing) {
     auto tell_started = [&](Result<void> result) {
         std::lock_guard lock(mutex_);
         started_ = std::move(result);
         changed_.notify_all();
     };
     if (!context_->make_current()) return tell_started(impossible("the second context cannot be used by another thread"));
-    Result<std::unique_ptr<Worker>> worker = Worker::make(ground, look_);
+    Result<std::unique_ptr<Worker>> worker = Worker::make(thing);
     tell_started(worker ? Result<void>() : tl::unexpected(worker.error()));
     while (worker) {
         std::unique_lock lock(mutex_);
@@ -110,14 +103,15 @@ Result<KeyThread::Done> KeyThread::draw(Worker& worker, const Order& order) {
     Result<gl::Framebuffer> framebuffer = framebuffer_of(order.picture);
     if (!framebuffer) return tl::unexpected(framebuffer.error());
     begin_picture(*framebuffer, order.picture);
-    refiner_.cut_by_pixels(order.picture.camera, order.error_px, worker.cut);
-    worker.surface.take(worker.cut);
+    DrawnGeometry& thing = *worker.thing;
+    thing.geometry().begin_key(order.picture.camera, order.error_px);
+    CutCount count = thing.geometry().next_slice(std::numeric_limits<uint64_t>::max()).count;
+    uint64_t uploaded_bytes = thing.take_slice();
     worker.program.use();
     gl::bind_for_drawing(framebuffer->id(), order.picture.drawn_camera.width_px, order.picture.drawn_camera.height_px);
-    worker.surface.draw(worker.program, order.picture.drawn_camera);
-    finish_picture(*framebuffer, order.picture, worker.surface);
-    Done done{read_depth(order.picture, order.grid_step), worker.cut.triangle_count(), worker.cut.indices.size(),
-              worker.cut.tested_count, worker.surface.uploaded_bytes()};
+    thing.slice().draw(worker.program, order.picture.drawn_camera);
+    finish_picture(*framebuffer, order.picture, thing.slice());
+    Done done{read_depth(order.picture, order.grid_step), count, thing.slice().draw_call_count(), uploaded_bytes};
     glFinish();
     if (GLenum error = glGetError(); error != GL_NO_ERROR)
         return tl::unexpected(Error{Exit::our_bug, fmt::format("a key's own thread: OpenGL error 0x{:04x}", error)});

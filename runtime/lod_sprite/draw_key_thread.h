@@ -9,16 +9,15 @@
 
 #include "runtime/gl/context.h"
 #include "runtime/lod_sprite/draw.h"
-#include "runtime/terrain/draw.h"
+#include "runtime/lod_sprite/draw_geometry.h"
 
 namespace overlook::lod_sprite {
 
 // One key at a time: begin(), then wait() or drop(). To be used, made and ended by one thread, whose context is current.
 class KeyThread {
   public:
-    // Refiner and ground must outlive it. Fails as gl::second_context and terrain::Drawing::sharing.
-    static Result<std::unique_ptr<KeyThread>> start(const terrain::Refiner& refiner, const terrain::Drawing& ground,
-                                                    const terrain::DrawOptions& look, const gl::SecondContextMaker& second);
+    // The thing must outlive it. Fails as gl::second_context and DrawnGeometry::sharing.
+    static Result<std::unique_ptr<KeyThread>> start(const DrawnGeometry& thing, const gl::SecondContextMaker& second);
     KeyThread(const KeyThread&) = delete;
     KeyThread& operator=(const KeyThread&) = delete;
     ~KeyThread();  // waits for what is being drawn
@@ -30,7 +29,8 @@ class KeyThread {
     };
     struct Done {
         DepthGrid depths;
-        uint64_t triangle_count = 0, vertex_reference_count = 0, tested_count = 0, uploaded_bytes = 0;
+        CutCount count;
+        uint64_t draw_call_count = 0, uploaded_bytes = 0;
     };
     void begin(const Order& order);  // none must be under way
     Result<Done> wait();  // for what was begun: everything is drawn then. Fails with Exit::impossible and Exit::our_bug
@@ -38,12 +38,10 @@ class KeyThread {
 
   private:
     struct Worker;
-    KeyThread(const terrain::Refiner& refiner, const terrain::DrawOptions& look, std::unique_ptr<gl::SecondContext> context);
-    void run(const terrain::Drawing& ground);
+    explicit KeyThread(std::unique_ptr<gl::SecondContext> context) : context_(std::move(context)) {}
+    void run(const DrawnGeometry& thing);
     Result<Done> draw(Worker& worker, const Order& order);
 
-    const terrain::Refiner& refiner_;
-    terrain::DrawOptions look_;
     std::unique_ptr<gl::SecondContext> context_;
     std::mutex mutex_;  // of all below
     std::condition_variable changed_;

@@ -3,15 +3,19 @@
 
 namespace overlook::lod_sprite::shaders {
 
-// How far above or below a vertex the true surface may lie: what low_error_px pixels are there, along the vertical
-// (view::error_px_bound_vertical solved for its error).
+// How far from a place the true surface may lie: what low_error_px pixels are there, along the vertical
+// (view::error_px_bound_vertical solved for its error) or in any direction (view::error_px_bound).
 inline constexpr char kSlack[] = R"(
 uniform vec3 eye_forward;
 uniform float focal_px, near_m, low_error_px, near_error_px, near_depth_m, most_slack_m;
 float slack_m(vec3 at_m) {
     float depth_m = max(dot(eye_forward, at_m), near_m);
     float error_px = depth_m < near_depth_m ? near_error_px : low_error_px;
+#ifdef ERROR_IS_VERTICAL
     float slack = error_px * depth_m / (focal_px * length(at_m.xy) / depth_m + error_px * abs(eye_forward.z));
+#else
+    float slack = error_px * depth_m / (focal_px * length(at_m) / depth_m + error_px);
+#endif
     return min(slack, most_slack_m);
 }
 )";
@@ -131,12 +135,16 @@ void look(out vec3 ray_m, out float low_m, out float slack_depth_m) {
     float depth_m = dot(eye_forward, surface.relative_m);
     ray_m = surface.relative_m / depth_m;
     vec3 normal = cross(dFdx(surface.relative_m), dFdy(surface.relative_m));
+    float steepest = 0.01 * length(ray_m);
+#ifdef ERROR_IS_VERTICAL
     normal *= (normal.z < 0.0 ? -1.0 : 1.0) / max(length(normal), 1e-20);
     // Where the ray meets the coarse surface itself, so far below what was drawn.
-    float fall = max(-dot(normal, ray_m), 0.01 * length(ray_m));
-    slack_depth_m = slack_m(surface.relative_m) * normal.z / fall;
+    slack_depth_m = slack_m(surface.relative_m) * normal.z / max(-dot(normal, ray_m), steepest);
     low_m = depth_m + raise * slack_depth_m;
-
+#else
+    slack_depth_m = slack_m(surface.relative_m) / max(abs(dot(normal, ray_m)) / max(length(normal), 1e-20), steepest);
+    low_m = depth_m;
+#endif
 }
 )";
 

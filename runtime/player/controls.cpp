@@ -46,7 +46,7 @@ double changed_error_px(double error_px, int presses) {
 
 void press(FrameStyle& style, const Presses& presses) {
     if (presses.error != 0) style.error_px = changed_error_px(style.error_px, presses.error);
-    for (int i = 0; i < presses.method; ++i) style.method = next(style.method);
+    for (int i = 0; i < presses.method; ++i) style.method = next(style.method, style.thing);
     if (presses.toggles_wireframe && has_wireframe(style.method)) {
         bool is_shaded = style.look.look == terrain::Look::shaded;
         style.look.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;

@@ -40,6 +40,7 @@ struct FrameRecord {
 // How a frame is to be drawn.
 struct FrameStyle {
     Method method = Method::terrain;
+    Thing thing = Thing::terrain;
     double error_px = 1;
     double morph = 0;            // of terrain, as Refiner::cut_by_pixels
     bool shows_sources = false;  // of lod-sprite: what is sprite and what is not

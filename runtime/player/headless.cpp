@@ -35,7 +35,7 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
         view::Camera camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
         Result<FrameRecord> record = scene.draw(*target, camera,
-                                                {*plan.method, controller.error_px(), plan.options.morph, false, plan.draw,
+                                                {*plan.method, scene.subject().thing(), controller.error_px(), plan.options.morph, false, plan.draw,
                                                  plan.flight.step_s, plan.options.triangles});
         if (!record) return tl::unexpected(record.error());
         records.push_back(*record);

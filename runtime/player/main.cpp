@@ -27,8 +27,8 @@ int play(const Options& options, const command::Common& common) {
     if (!scene) return command::fail("player", scene.error());
 
     Method method = plan->method.value_or(scene->method());
-    Result<void> fit = check_kind(options, method, scene->method());
-    if (fit) fit = check_fit(options, method);
+    Result<void> fit = check_kind(options, method, scene->subject().thing());
+    if (fit) fit = check_fit(options, method, scene->subject().thing());
     if (!fit) return command::fail("player", fit.error());
 
     if (!has_window && !options.headless)

@@ -106,8 +106,16 @@ std::string_view name_of(Method method) {
     return kNames[size_t(method)];
 }
 
-bool draws_meshes(Method method) {
-    return method >= Method::caveclod;
+std::string_view name_of(Thing thing) {
+    return thing == Thing::mesh ? "mesh" : "terrain";
+}
+
+bool draws(Method method, Thing thing) {
+    return method == Method::lod_sprite || (method >= Method::caveclod) == (thing == Thing::mesh);
+}
+
+Method default_method(Thing thing) {
+    return thing == Thing::mesh ? Method::caveclod : Method::terrain;
 }
 
 bool takes_budgets(Method method) {
@@ -115,7 +123,7 @@ bool takes_budgets(Method method) {
 }
 
 bool has_wireframe(Method method) {
-    return method == Method::terrain || draws_meshes(method);
+    return method == Method::terrain || method >= Method::caveclod;
 }
 
 caveclod::Variant variant_of(Method method) {
@@ -123,10 +131,10 @@ caveclod::Variant variant_of(Method method) {
     return method == Method::caveclod_shared ? caveclod::Variant::shared : caveclod::Variant::own;
 }
 
-Method next(Method method) {
+Method next(Method method, Thing thing) {
     auto after = [](Method one) { return Method((size_t(one) + 1) % kNames.size()); };
     Method found = after(method);
-    while (draws_meshes(found) != draws_meshes(method)) found = after(found);
+    while (!draws(found, thing)) found = after(found);
     return found;
 }
 
@@ -160,7 +168,7 @@ Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& descr
     for (const auto& [kind, value] : values) {
         if (read.method == Method::lod_sprite) lod_sprite::set(read.sprite, kind.name, value);
         if (read.method == Method::lod_sprite_paper) lod_sprite::paper::set(read.paper, kind.name, value);
-        if (draws_meshes(read.method) && read.method != Method::discrete) caveclod::set(read.mesh, kind.name, value);
+        if (read.method >= Method::caveclod && read.method != Method::discrete) caveclod::set(read.mesh, kind.name, value);
     }
     if (Result<void> checked = check_promises(path, read); !checked) return tl::unexpected(checked.error());
     return read;

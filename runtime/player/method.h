@@ -11,17 +11,21 @@
 
 namespace overlook::player {
 
-// Of terrains, then of meshes.
+enum class Thing { terrain, mesh };
+
+// Of terrains; lod-sprite draws both; of meshes from caveclod on.
 enum class Method { terrain, lod_sprite, lod_sprite_paper, caveclod, caveclod_paper, caveclod_shared, discrete };
 
 // As typed: "terrain", "lod-sprite", "lod-sprite:paper", "caveclod" ...
 std::string_view name_of(Method method);
-bool draws_meshes(Method method);
+bool draws(Method method, Thing thing);
+std::string_view name_of(Thing thing);  // "terrain", "mesh"
+Method default_method(Thing thing);
 bool takes_budgets(Method method);  // of triangles or milliseconds, by the error asked for
 bool has_wireframe(Method method);
 caveclod::Variant variant_of(Method method);  // of one of caveclod's
-// The one that M goes on to, of the same kind of thing; the last is followed by the first.
-Method next(Method method);
+// The one that M goes on to, of those that draw the thing; the last is followed by the first.
+Method next(Method method, Thing thing);
 
 // Fails with Exit::bad_command:
 //   "--method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, ...)"

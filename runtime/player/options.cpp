@@ -65,7 +65,7 @@ bool find_number(const std::string& pattern, NumberPlace& place) {
 
 }  // namespace
 
-Result<void> check_fit(const Options& options, Method method) {
+Result<void> check_fit(const Options& options, Method method, Thing thing) {
     struct Rule {
         const char* name;
         bool is_given, is_taken;
@@ -77,7 +77,7 @@ Result<void> check_fit(const Options& options, Method method) {
                            {"--stream-memory", options.stream_memory_bytes > 0, is_terrain},
                            {"--wireframe", options.wireframe, is_triangles},
                            {"--split-picture", options.split_picture, is_terrain},
-                           {"--haze", options.sets_haze, !draws_meshes(method)}};
+                           {"--haze", options.sets_haze, thing == Thing::terrain}};
     for (const Rule& rule : kRules) {
         if (rule.is_given && !rule.is_taken)
             return bad_command("{}: {} does not take it; --method terrain does", rule.name, name_of(method));
@@ -85,13 +85,13 @@ Result<void> check_fit(const Options& options, Method method) {
     return {};
 }
 
-Result<void> check_kind(const Options& options, Method method, Method file_method) {
-    if (draws_meshes(method) == draws_meshes(file_method)) return {};
-    std::string fitting(name_of(file_method));
-    for (Method one = next(file_method); one != file_method; one = next(one)) fitting += fmt::format(", {}", name_of(one));
+Result<void> check_kind(const Options& options, Method method, Thing thing) {
+    if (draws(method, thing)) return {};
+    Method first = default_method(thing);
+    std::string fitting(name_of(first));
+    for (Method one = next(first, thing); one != first; one = next(one, thing)) fitting += fmt::format(", {}", name_of(one));
     return bad_command("--method {}: it draws {}, and {} holds a {}; that takes {}", name_of(method),
-                       draws_meshes(method) ? "meshes" : "terrains", options.file, draws_meshes(method) ? "terrain" : "mesh",
-                       fitting);
+                       thing == Thing::mesh ? "terrains" : "meshes", options.file, name_of(thing), fitting);
 }
 
 void choose_samples(Plan& plan, bool is_software, bool is_window) {
@@ -190,7 +190,8 @@ Result<Plan> plan_from(const Options& options) {
     if (!options.method.empty()) {
         Result<Method> method = parse_method(options.method);
         if (!method) return tl::unexpected(method.error());
-        if (Result<void> fit = check_fit(options, *method); !fit) return tl::unexpected(fit.error());
+        Thing thing = draws(*method, Thing::terrain) ? Thing::terrain : Thing::mesh;  // till the file is read
+        if (Result<void> fit = check_fit(options, *method, thing); !fit) return tl::unexpected(fit.error());
         plan.method = *method;
     }
     for (const std::string& text : options.cameras) {

@@ -59,9 +59,9 @@ Result<Plan> plan_from(const Options& options);
 // Fails with Exit::bad_command if an option asks for what the method cannot do:
 //   "--triangles: lod-sprite does not take it; --method terrain does"
 //   "--method caveclod: it draws meshes, and valley.ovl holds a terrain; that takes terrain, lod-sprite, lod-sprite:paper"
-Result<void> check_fit(const Options& options, Method method);
+Result<void> check_fit(const Options& options, Method method, Thing thing);
 // file_method: one that the file can be drawn with.
-Result<void> check_kind(const Options& options, Method method, Method file_method);
+Result<void> check_kind(const Options& options, Method method, Thing thing);
 
 // Settles the samples a pixel, if none were asked for: 4, but 1 in a window that the processor draws, which would else be too
 // slow to fly. With 1 the texture is filtered the fast way as well.

@@ -24,18 +24,18 @@ Result<std::unique_ptr<Subject>> read_subject(const std::string& asset, const st
                                               bool is_method_said, const std::optional<stream::Settings>& streamed) {
     Result<container::Reader> file = container::Reader::open(asset);
     if (!file) return tl::unexpected(file.error());
-    bool is_mesh = file->kind() == caveclod::kKind;
-    if (!is_mesh && file->kind() != terrain::kKind) {
+    Thing thing = file->kind() == caveclod::kKind ? Thing::mesh : Thing::terrain;
+    if (thing != Thing::mesh && file->kind() != terrain::kKind) {
         return bad_input("{}: a file of kind {} cannot be drawn; a baked terrain or mesh is wanted", asset,
                          container::tag_text(file->kind()));
     }
-    if (!is_method_said) layer.method = is_mesh ? Method::caveclod : Method::terrain;
-    if (draws_meshes(layer.method) != is_mesh) {
+    if (!is_method_said) layer.method = default_method(thing);
+    if (!draws(layer.method, thing)) {
         return bad_input("{}: /layers/0/method: {} draws {}, and {} is a {}", path, name_of(layer.method),
-                         is_mesh ? "terrains" : "meshes", asset, is_mesh ? "mesh" : "terrain");
+                         thing == Thing::mesh ? "terrains" : "meshes", asset, name_of(thing));
     }
-    if (streamed && !is_mesh) return read_streamed_terrain(std::move(*file), *streamed);
-    return is_mesh ? read_mesh(*file, layer) : read_terrain(*file, layer);
+    if (streamed && thing == Thing::terrain) return read_streamed_terrain(std::move(*file), *streamed);
+    return thing == Thing::mesh ? read_mesh(*file, layer) : read_terrain(*file, layer);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ class Subject : public Ground {
     // A view over the whole of it.
     virtual view::Camera overview(uint32_t width_px, uint32_t height_px) const = 0;
     virtual double near_m() const = 0;
+    virtual Thing thing() const = 0;
     virtual bool has_one_method() const { return false; }
 
     // A method that was not drawn with in the frame before begins anew. Fails as lod_sprite::FrameDrawer.

@@ -1,4 +1,4 @@
-// A mesh in the player: refined by any of CAVECLOD's variants, or by levels for the whole of it.
+// A mesh in the player: refined by any of CAVECLOD's variants, by levels for the whole of it, or by LOD-sprite on it.
 
 #include <algorithm>
 #include <cassert>
@@ -8,7 +8,10 @@
 #include "formats/caveclod.h"
 #include "runtime/caveclod/draw_frames.h"
 #include "runtime/caveclod/static_levels.h"
+#include "runtime/caveclod/near_plane.h"
 #include "runtime/gl/timer.h"
+#include "runtime/lod_sprite/draw_on_mesh.h"
+#include "runtime/player/draw_sprite.h"
 #include "runtime/player/subject.h"
 
 namespace overlook::player {
@@ -26,7 +29,8 @@ class MeshSubject : public Subject {
         radius_m_ = std::max(glm::distance(mesh_.lowest_m(), mesh_.highest_m()) / 2, 1e-6);
     }
 
-    Result<void> upload(const gl::SecondContextMaker&) override {
+    Result<void> upload(const gl::SecondContextMaker& second) override {
+        second_context_ = second;
         Result<caveclod::Drawing> drawing = caveclod::Drawing::make(mesh_);
         if (!drawing) return tl::unexpected(drawing.error());
         drawing_.emplace(std::move(*drawing));
@@ -53,6 +57,7 @@ class MeshSubject : public Subject {
         camera.position_m = middle_m_ - axes.forward * (away_m + kNearShare * radius_m_);
         return camera;
     }
+    Thing thing() const override { return Thing::mesh; }
     double near_m() const override { return std::min(0.5, kNearShare * radius_m_); }
 
     // Meshes are flown through and round; nothing of them is ground.
@@ -67,6 +72,16 @@ class MeshSubject : public Subject {
         assert(drawing_.has_value());
         FrameRecord record;
         record.asked_error_px = style.error_px;
+        bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
+        if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));
+        last_method_ = style.method;
+        last_error_px_ = style.error_px;
+        if (style.method == Method::lod_sprite) {
+            if (Result<void> ready = ready_sprite(style); !ready) return tl::unexpected(ready.error());
+            view::Camera far_plane = caveclod::with_far_near_plane(mesh_, camera);
+            if (Result<void> drawn = draw_sprite(*sprite_, target, far_plane, record); !drawn) return tl::unexpected(drawn.error());
+            return record;
+        }
         if (style.method == Method::discrete) {
             draw_level(target, camera, style, record);
             return record;
@@ -100,6 +115,18 @@ class MeshSubject : public Subject {
         return look;
     }
 
+    // Whoever draws sprites on it, with this error.
+    Result<void> ready_sprite(const FrameStyle& style) {
+        if (!sprite_) {
+            auto thing = std::make_unique<lod_sprite::DrawnMesh>(mesh_, *drawing_, caveclod::DrawOptions());
+            auto made = lod_sprite::FrameDrawer::make(std::move(thing), with_error(layer_.sprite, style.error_px), second_context_);
+            if (!made) return tl::unexpected(made.error());
+            sprite_ = std::move(*made);
+        }
+        sprite_->show_sources(style.shows_sources || layer_.sprite.draw.shows_sources);
+        return {};
+    }
+
     void draw_level(const gl::Target& target, const view::Camera& camera, const FrameStyle& style, FrameRecord& record) {
         gl::Timer choosing;
         if (!levels_) {
@@ -129,6 +156,10 @@ class MeshSubject : public Subject {
     std::unique_ptr<caveclod::FrameDrawer> frames_;  // of the method of the frame before
     std::optional<caveclod::StaticLevels> levels_;   // once they were drawn with
     std::vector<std::unique_ptr<caveclod::CameraBuffers>> level_buffers_;
+    gl::SecondContextMaker second_context_;
+    std::unique_ptr<lod_sprite::FrameDrawer> sprite_;  // once it was drawn with
+    Method last_method_ = Method::caveclod;            // of the frame before
+    double last_error_px_ = 0;
 };
 
 }  // namespace

@@ -31,6 +31,7 @@ class StreamedSubject : public Subject {
         double highest_m = double(terrain::height_range_of(head(), tiles_->file().whole()).high_m);
         return player::overview(head(), tiles_->file().mean_height_m(), highest_m, ground, width_px, height_px);
     }
+    Thing thing() const override { return Thing::terrain; }
     double near_m() const override { return std::min(0.5, 0.25 * step_m()); }
     bool has_one_method() const override { return true; }
 

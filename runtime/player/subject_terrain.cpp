@@ -6,7 +6,9 @@
 
 #include "formats/terrain.h"
 #include "runtime/gl/timer.h"
+#include "runtime/lod_sprite/draw_on_terrain.h"
 #include "runtime/player/draw_cut.h"
+#include "runtime/player/draw_sprite.h"
 #include "runtime/player/flight.h"
 #include "runtime/player/subject.h"
 #include "runtime/terrain/near_plane.h"
@@ -14,26 +16,6 @@
 
 namespace overlook::player {
 namespace {
-
-// By either form of LOD-sprite.
-template <class FrameDrawer>
-Result<void> draw_sprite(FrameDrawer& frames, const gl::Target& target, const view::Camera& local, FrameRecord& record) {
-    gl::Timer deciding;
-    frames.decide(local);
-    record.refine_ms = deciding.elapsed_ms();
-
-    gl::Timer drawing;
-    Result<lod_sprite::FrameCounts> drawn = frames.draw(target);
-    if (!drawn) return tl::unexpected(drawn.error());
-    record.draw_ms = drawing.finished_ms();
-
-    record.triangle_count = drawn->triangle_count;
-    record.tested_count = drawn->tested_count;
-    record.predicted_error_px = drawn->error_p99_px;
-    record.uploaded_bytes = drawn->uploaded_bytes;
-    record.sprite = *drawn;
-    return {};
-}
 
 class TerrainSubject : public Subject {
   public:
@@ -51,6 +33,7 @@ class TerrainSubject : public Subject {
     view::Camera overview(uint32_t width_px, uint32_t height_px) const override {
         return player::overview(terrain_, refiner_.lowest_m(), refiner_.highest_m(), width_px, height_px);
     }
+    Thing thing() const override { return Thing::terrain; }
     double near_m() const override { return std::min(0.5, 0.25 * step_m()); }
     std::optional<double> height_m(double x_m, double y_m) const override { return ground_.height_m(x_m, y_m); }
     double distance_m(const glm::dvec3& place_m) const override { return ground_.distance_m(place_m); }
@@ -93,9 +76,8 @@ class TerrainSubject : public Subject {
             return {};
         }
         if (!sprite_) {
-            lod_sprite::FrameOptions options = with_error(layer_.sprite, style.error_px);
-            options.look = look;
-            auto made = lod_sprite::FrameDrawer::make(refiner_, *drawing_, options, second_context_);
+            auto thing = std::make_unique<lod_sprite::DrawnTerrain>(refiner_, *drawing_, look);
+            auto made = lod_sprite::FrameDrawer::make(std::move(thing), with_error(layer_.sprite, style.error_px), second_context_);
             if (!made) return tl::unexpected(made.error());
             sprite_ = std::move(*made);
         }

@@ -265,7 +265,7 @@ void Drawing::set_anisotropy(float anisotropy) {
     glTextureParameterf(texture_.id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(anisotropy, 1.0f, most));
 }
 
-void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options, TriangleRange range) {
+void Drawing::draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options, gl::TriangleRange range) {
     program.use();
     set_camera(program, camera, options);
     glBindVertexArray(vertices_.id());

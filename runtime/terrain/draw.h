@@ -33,11 +33,6 @@ struct DrawOptions {
     std::optional<view::Part> part;
 };
 
-// Some of a cut's triangles, in their order.
-struct TriangleRange {
-    uint64_t first = 0, count = ~uint64_t(0);  // as far as there are
-};
-
 // A terrain on the graphics card: 4 bytes a sample and its texture. The terrain itself may go afterwards.
 // It is drawn relative to the camera (whole cells subtracted as integers, the rest in double), so that the picture is
 // the same however far from the world's origin the terrain lies.
@@ -63,7 +58,8 @@ class Drawing {
     // Draws with a cut what a method colours by itself, into whatever is bound.
     Result<gl::Program> program(const gl::SurfaceShader& shader) const;
     void take(const Cut& cut);  // what draw_with() draws from now on
-    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options, TriangleRange range = {});
+    void draw_with(const gl::Program& program, const view::Camera& camera, const DrawOptions& options,
+                   gl::TriangleRange range = {});
     void draw_sky(const view::Camera& camera, const DrawOptions& options) const;  // where nothing is drawn yet
 
     // What the last draw() or take() sent to the card, and the tiles since the one before.
@@ -109,19 +105,20 @@ class CutSurface : public gl::Surface {
     // What is drawn from now on, by all surfaces of this drawing.
     void take(const Cut& cut) { drawing_.take(cut); }
     // Only these of what was taken.
-    void take_range(TriangleRange range) { range_ = range; }
+    void take_range(gl::TriangleRange range) { range_ = range; }
     uint64_t uploaded_bytes() const { return drawing_.uploaded_bytes(); }
 
     Result<gl::Program> program(const gl::SurfaceShader& shader) const override { return drawing_.program(shader); }
     void draw(const gl::Program& program, const view::Camera& camera) override {
         drawing_.draw_with(program, camera, options_, range_);
     }
+    uint64_t draw_call_count() const override { return 1; }
     void draw_background(const view::Camera& camera) override { drawing_.draw_sky(camera, options_); }
 
   private:
     Drawing& drawing_;
     DrawOptions options_;
-    TriangleRange range_;
+    gl::TriangleRange range_;
 };
 
 }  // namespace overlook::terrain

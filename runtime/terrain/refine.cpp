@@ -193,10 +193,10 @@ void Refiner::cut_by_metres(double tolerance_m, Cut& out) const {
 }
 
 void Refiner::cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph) const {
-    cut_by_pixels(camera, PixelDetail{error_px, morph, 0, error_px}, out);
+    cut_by_pixels(camera, view::PixelDetail{error_px, morph, 0, error_px}, out);
 }
 
-void Refiner::cut_by_pixels(const view::Camera& camera, const PixelDetail& detail, Cut& out) const {
+void Refiner::cut_by_pixels(const view::Camera& camera, const view::PixelDetail& detail, Cut& out) const {
     ScreenTest test(impl_->terrain, impl_->bounds, camera, detail);
     refine(impl_->terrain, test, ScreenTest::kAllPlanes, out);
 }

@@ -3,12 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "formats/terrain.h"
 #include "runtime/view/camera.h"
-#include "runtime/view/picture_mask.h"
+#include "runtime/view/pixel_detail.h"
 
 namespace overlook::terrain {
 
@@ -44,18 +43,6 @@ struct Cut {
     static constexpr uint32_t kMorphBit = 1u << 31;
 };
 
-// How fine a cut is on the screen.
-struct PixelDetail {
-    double error_px = 1;  // > 0
-    double morph = 0;
-    // What comes nearer than near_depth_m (along the camera's axis) keeps near_error_px > 0, at most error_px.
-    double near_depth_m = 0, near_error_px = 1;
-    // So does, if there is another camera, what that one does not see for certain: the frame's part outside its four sides.
-    std::optional<view::Camera> seen_by{};
-    // And so does what may touch a marked part of the picture.
-    view::PictureMask finer_in{};
-};
-
 // How far vertices morph (Refiner::cut_by_pixels) unless someone asks otherwise.
 inline constexpr double kDefaultMorph = 0.5;
 
@@ -84,7 +71,7 @@ class Refiner {
     // triangles along the east and south rims of rasters whose sides are not 2^k * n + 1.
     void cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph = 0) const;
     // The same with two tolerances, one for what is near or not seen by another camera.
-    void cut_by_pixels(const view::Camera& camera, const PixelDetail& detail, Cut& out) const;
+    void cut_by_pixels(const view::Camera& camera, const view::PixelDetail& detail, Cut& out) const;
 
     // Where a vertex of a cut is drawn, metres in the terrain's frame. index: one of the cut's.
     glm::dvec3 vertex_m(const Cut& cut, uint32_t index) const;

@@ -144,7 +144,7 @@ std::vector<Piece> root_pieces(const Tiles& tiles) {
 }  // namespace
 
 void TileRefiner::cut_by_pixels(const view::Camera& camera, double error_px, Cut& out, double morph) const {
-    Test test(tiles_.head(), bounds_, camera, PixelDetail{error_px, morph, 0, error_px, {}, {}});
+    Test test(tiles_.head(), bounds_, camera, view::PixelDetail{error_px, morph, 0, error_px, {}, {}});
     std::vector<Piece> roots = root_pieces(tiles_), pieces;
     int depth = 0;
     while ((roots.size() << depth) < kPartsWanted) ++depth;

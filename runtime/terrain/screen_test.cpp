@@ -8,19 +8,11 @@ namespace overlook::terrain {
 namespace {
 // What the arithmetic of the bound may round away, many times over.
 constexpr double kRoundingAllowance = 1 + 1e-9;
-
-// What lies within a camera's four sides is on the positive side of all of these, which go through its place.
-std::array<glm::dvec3, 4> sides_of(const view::Camera& camera) {
-    view::Axes axes = view::axes_of(camera);
-    double focal = view::focal_px(camera), tangent_x = camera.width_px / (2 * focal), tangent_y = camera.height_px / (2 * focal);
-    return {axes.forward * tangent_x + axes.right, axes.forward * tangent_x - axes.right, axes.forward * tangent_y + axes.up,
-            axes.forward * tangent_y - axes.up};
-}
 }  // namespace
 
 template <class Bounds>
 BasicScreenTest<Bounds>::BasicScreenTest(const Terrain& terrain, const Bounds& bounds, const view::Camera& camera,
-                                         const PixelDetail& detail)
+                                         const view::PixelDetail& detail)
     : bounds_(bounds),
       last_column_(terrain.shape.width - 1),
       last_row_(terrain.shape.height - 1),
@@ -37,13 +29,13 @@ BasicScreenTest<Bounds>::BasicScreenTest(const Terrain& terrain, const Bounds& b
     view::Axes axes = view::axes_of(camera);
     auto direction = [](const glm::dvec3& v) { return Direction{v.x, v.y, v.z}; };
     right_ = direction(axes.right), up_ = direction(axes.up), forward_ = direction(axes.forward);
-    std::array<glm::dvec3, 4> sides = sides_of(camera);
+    std::array<glm::dvec3, 4> sides = view::sides_of(camera);
     for (size_t i = 0; i < 4; ++i) planes_[i] = direction(sides[i]);
     planes_[4] = forward_;
     plane_offsets_[4] = near_m_;
     if (detail.seen_by) {
         side_count_ = 4;
-        std::array<glm::dvec3, 4> others = sides_of(*detail.seen_by);
+        std::array<glm::dvec3, 4> others = view::sides_of(*detail.seen_by);
         for (size_t i = 0; i < 4; ++i) {
             sides_[i] = direction(others[i]);
             side_offsets_[i] = glm::dot(others[i], detail.seen_by->position_m - camera.position_m);

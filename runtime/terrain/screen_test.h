@@ -39,7 +39,8 @@ class BasicScreenTest {
   public:
     static constexpr uint8_t kAllPlanes = 31;  // left, right, bottom, top, near
 
-    BasicScreenTest(const Terrain& terrain, const Bounds& bounds, const view::Camera& camera, const PixelDetail& detail);
+    BasicScreenTest(const Terrain& terrain, const Bounds& bounds, const view::Camera& camera,
+                    const view::PixelDetail& detail);
 
     // `planes`: those that cut the parent's box; what lies inside one is not tested against it again. Raises predicted_squared
     // (px^2) to the bound of what is kept.

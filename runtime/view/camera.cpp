@@ -29,6 +29,13 @@ bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
 
 }  // namespace
 
+std::array<glm::dvec3, 4> sides_of(const Camera& camera) {
+    Axes axes = axes_of(camera);
+    double focal = focal_px(camera), tangent_x = camera.width_px / (2 * focal), tangent_y = camera.height_px / (2 * focal);
+    return {axes.forward * tangent_x + axes.right, axes.forward * tangent_x - axes.right, axes.forward * tangent_y + axes.up,
+            axes.forward * tangent_y - axes.up};
+}
+
 Axes axes_of(const Camera& camera) {
     double heading = radians(camera.heading_deg), pitch = radians(camera.pitch_deg);
     Axes axes;

@@ -31,6 +31,10 @@ struct Axes {
 };
 Axes axes_of(const Camera& camera);
 
+// Left, right, bottom and top: what lies within the picture's four sides has a product of at least 0 with each of these, from the
+// camera's place.
+std::array<glm::dvec3, 4> sides_of(const Camera& camera);
+
 // Pixels per unit of tangent: height_px / (2 tan(fov_y / 2)).
 double focal_px(const Camera& camera);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/lod_sprite/draw_on_terrain.h"
 #include "runtime/lod_sprite/draw_paper_frames.h"
 #include "tests/gl/fixture.h"
 
@@ -23,14 +24,18 @@ struct Stage {
     terrain::Terrain terrain = test::hilly_terrain(257);
     terrain::Refiner refiner{terrain};
     std::optional<terrain::Drawing> ground;
+    terrain::DrawOptions look;
 
     Stage() {
         Result<terrain::Drawing> made = terrain::Drawing::make(terrain);
         EXPECT_TRUE(made) << made.error().message;
         ground = std::move(*made);
     }
+    std::unique_ptr<lod_sprite::DrawnGeometry> thing() {
+        return std::make_unique<lod_sprite::DrawnTerrain>(refiner, *ground, look);
+    }
     std::unique_ptr<FrameDrawer> frames(const FrameOptions& options = {}) {
-        auto made = FrameDrawer::make(refiner, *ground, options);
+        auto made = FrameDrawer::make(thing(), options);
         EXPECT_TRUE(made) << made.error().message;
         return std::move(*made);
     }
@@ -192,11 +197,11 @@ TEST(LodSpriteFrames, SayThatThereIsNoSecondContext) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Stage stage;
     auto none = []() -> Result<std::unique_ptr<gl::SecondContext>> { return impossible("none here"); };
-    auto made = FrameDrawer::make(stage.refiner, *stage.ground, thread_options(), none);
+    auto made = FrameDrawer::make(stage.thing(), thread_options(), none);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().exit, Exit::impossible);
     EXPECT_EQ(made.error().message, "none here");
-    EXPECT_TRUE(FrameDrawer::make(stage.refiner, *stage.ground, fine_options(), none));
+    EXPECT_TRUE(FrameDrawer::make(stage.thing(), fine_options(), none));
 }
 
 TEST(LodSpriteFrames, DrawTheSamePictureAgain) {
@@ -257,7 +262,7 @@ TEST(LodSpriteFrames, TellSourcesByColour) {
     Stage stage;
     FrameOptions options = fine_options();
     lod_sprite::set(options, "fade-frames", 0);
-    options.look.haze = 0;
+    stage.look.haze = 0;
     auto frames = stage.frames(options);
     gl::Target target = target_of();
     frames->show_sources(true);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/lod_sprite/draw_on_terrain.h"
 #include "tests/gl/lod_sprite_scene.h"
 
 namespace overlook {
@@ -31,7 +32,8 @@ Texels texels_of(const KeyPicture& picture) {
 
 struct Stage {
     SpriteScene scene{test::walled_terrain(129), 1};
-    std::unique_ptr<KeyThread> thread = *KeyThread::start(scene.refiner, scene.ground, scene.look, gl::second_context);
+    lod_sprite::DrawnTerrain thing{scene.refiner, scene.ground, scene.look};
+    std::unique_ptr<KeyThread> thread = *KeyThread::start(thing, gl::second_context);
 
     view::Camera key(double right_m) const { return lod_sprite::key_camera(scene.pose(right_m), 1.15); }
     // Drawn here, slice by slice.
@@ -67,7 +69,7 @@ TEST(LodSpriteKeyThread, DrawsThePictureThatSlicesDraw) {
         EXPECT_EQ(done->depths.depth_m, stage.scene.painter.read_depth(0, 8).depth_m);
         terrain::Cut whole;
         stage.scene.refiner.cut_by_pixels(picture.camera, kError_px, whole);
-        EXPECT_EQ(done->triangle_count, whole.triangle_count());
+        EXPECT_EQ(done->count.triangle_count, whole.triangle_count());
     }
 }
 

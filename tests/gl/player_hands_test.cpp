@@ -16,10 +16,11 @@ namespace {
 TEST(PressedKeys, GoThroughTheMethodsOfMeshes) {
     player::FrameStyle style;
     style.method = player::Method::caveclod;
+    style.thing = player::Thing::mesh;
     player::Presses press;
     press.method = 1, press.toggles_wireframe = true;
-    for (player::Method then :
-         {player::Method::caveclod_paper, player::Method::caveclod_shared, player::Method::discrete, player::Method::caveclod}) {
+    for (player::Method then : {player::Method::caveclod_paper, player::Method::caveclod_shared, player::Method::discrete,
+                                player::Method::lod_sprite, player::Method::caveclod}) {
         player::press(style, press);
         EXPECT_EQ(style.method, then);
     }

@@ -65,7 +65,7 @@ TEST(PixelCut, IsFinerOutsideWhatAnotherCameraSees) {
     for (uint64_t seed = 0; seed < 40; ++seed) {
         view::Camera camera = random_camera(terrain, seed), other = camera;
         double error_px = random_tolerance_px(seed);
-        PixelDetail detail{16 * error_px, 0, 0, error_px, camera};
+        view::PixelDetail detail{16 * error_px, 0, 0, error_px, camera};
         refiner.cut_by_pixels(camera, 16 * error_px, coarse);
         refiner.cut_by_pixels(camera, error_px, fine);
 

@@ -2,29 +2,38 @@
 
 #include <cassert>
 
+#include "runtime/caveclod/near_plane.h"
 #include "runtime/lod_sprite/draw_frames.h"
+#include "runtime/lod_sprite/draw_on_mesh.h"
+#include "runtime/lod_sprite/draw_on_terrain.h"
 #include "tools/measure/capture.h"
 
 namespace overlook::measure {
 namespace {
 
-lod_sprite::FrameOptions options_of(const World& world, const MethodSpec& spec) {
+lod_sprite::FrameOptions options_of(const MethodSpec& spec) {
     lod_sprite::FrameOptions options;
     for (const SettingKind& kind : lod_sprite::setting_kinds())
         lod_sprite::set(options, kind.name, setting(spec, std::string(kind.name)));
-    options.look = world.look;
     return options;
+}
+
+std::unique_ptr<lod_sprite::DrawnGeometry> thing_of(World& world) {
+    if (world.is_mesh()) return std::make_unique<lod_sprite::DrawnMesh>(*world.mesh->mesh, *world.mesh->drawing, world.mesh->look);
+    return std::make_unique<lod_sprite::DrawnTerrain>(*world.refiner, *world.drawing, world.look);
 }
 
 class LodSprite : public Method {
   public:
     LodSprite(World& world, const MethodSpec& spec) : world_(world) {
-        auto frames = lod_sprite::FrameDrawer::make(*world.refiner, *world.drawing, options_of(world, spec));
+        auto frames = lod_sprite::FrameDrawer::make(thing_of(world), options_of(spec));
         assert(frames);
         frames_ = std::move(*frames);
     }
 
-    void decide(const view::Camera& camera, uint32_t) override { frames_->decide(camera); }
+    void decide(const view::Camera& camera, uint32_t) override {
+        frames_->decide(world_.is_mesh() ? caveclod::with_far_near_plane(*world_.mesh->mesh, camera) : camera);
+    }
 
     bool set_triangles(double triangles) override {
         frames_->set_triangles(triangles);

@@ -253,12 +253,16 @@ double morph_of(const MethodSpec& spec) {
 }
 
 bool draws_meshes(const MethodSpec& spec) {
-    return spec.name == "caveclod" || spec.name == "discrete";
+    return !draws_terrains(spec) || is_floor(spec) || (spec.name == "lod-sprite" && spec.variant.empty());
+}
+
+bool draws_terrains(const MethodSpec& spec) {
+    return spec.name != "caveclod" && spec.name != "discrete";
 }
 
 Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) {
     for (const MethodSpec& spec : specs) {
-        if (is_floor(spec) || draws_meshes(spec) == world.is_mesh()) continue;
+        if (world.is_mesh() ? draws_meshes(spec) : draws_terrains(spec)) continue;
         return impossible("--method {}: it draws {}, and {} holds a {}", named(spec), world.is_mesh() ? "terrains" : "meshes",
                           world.name, world.is_mesh() ? "mesh" : "terrain");
     }

@@ -45,6 +45,7 @@ double morph_of(const MethodSpec& spec);
 // Triangles that a frame may have, 0 = as many as its error takes.
 double budget_of(const MethodSpec& spec);
 
+bool draws_terrains(const MethodSpec& spec);
 bool draws_meshes(const MethodSpec& spec);
 // Fails with Exit::impossible:
 //   "--method caveclod: it draws meshes, and valley.json holds a terrain"

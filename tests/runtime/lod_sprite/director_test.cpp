@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "runtime/lod_sprite/on_terrain.h"
 #include "tests/runtime/lod_sprite/sprite_fixture.h"
 #include "tests/tools/synthetic_dem.h"
 #include "tools/bake/terrain.h"
@@ -50,7 +51,7 @@ constexpr uint64_t kThreadTriangles = 1234;  // of keys that a thread is said to
 // Carries out what a director plans, with a ray marcher for a renderer; sees to it that plans can be carried out.
 class Flight {
   public:
-    explicit Flight(const Settings& settings = {}) : director_(ground().refiner, settings) {}
+    explicit Flight(const Settings& settings = {}) : director_(geometry_, settings) {}
 
     Frame step(const view::Camera& camera) {
         Frame frame;
@@ -61,8 +62,8 @@ class Flight {
         }
         EXPECT_EQ(director_.key_triangles(), frame.slice_triangles);
         frame.novel = director_.novel();
-        frame.indices = frame.novel.cut->indices;
-        frame.novel.cut = nullptr;
+        frame.indices = geometry_.coarse().indices;
+        EXPECT_EQ(frame.novel.cut.triangle_count, geometry_.coarse().triangle_count());
         for (const NovelUse& use : frame.novel.keys) EXPECT_TRUE(whole_.count(use.slot)) << "a key that is not whole is used";
         EXPECT_EQ(frame.novel.is_fine, frame.novel.keys.empty());
         return frame;
@@ -93,24 +94,27 @@ class Flight {
             drawn.push_back({*work.begin, {}});
             ended.push_back(false);
         }
-        if (work.slice != nullptr) add_slice(work, frame);
+        if (work.slice) add_slice(work, frame);
         if (!work.is_last) return;
         frame.ended_key = true;
         ended[place_of_.at(work.slot)] = true;
         whole_.insert(work.slot);
         director_.key_done(test::seen_depths(ground().terrain, camera_of_.at(work.slot), 48), kThreadTriangles);
-        if (work.slice == nullptr) frame.slice_triangles = kThreadTriangles;
+        if (!work.slice) frame.slice_triangles = kThreadTriangles;
     }
     void add_slice(const KeyWork& work, Frame& frame) {
-        frame.slice_triangles += work.slice->triangle_count();
+        const std::vector<uint32_t>& indices = geometry_.slice().indices;
+        EXPECT_EQ(3 * work.slice->triangle_count, indices.size());
+        frame.slice_triangles += work.slice->triangle_count;
         Triangles& into = drawn[place_of_.at(work.slot)].second;
-        for (size_t i = 0; i < work.slice->indices.size(); i += 3) {
-            std::array<uint32_t, 3> t{work.slice->indices[i], work.slice->indices[i + 1], work.slice->indices[i + 2]};
+        for (size_t i = 0; i < indices.size(); i += 3) {
+            std::array<uint32_t, 3> t{indices[i], indices[i + 1], indices[i + 2]};
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
             into.insert(t);
         }
     }
 
+    TerrainGeometry geometry_{ground().refiner};
     Director director_;
     std::set<uint32_t> whole_;
     std::map<uint32_t, view::Camera> camera_of_;
@@ -214,7 +218,8 @@ TEST(Director, KeepsNoPromiseThatATexelCannotShow) {
     settings.error_px = 0.01, settings.key_error_px = 0.9;
     auto cut_px = [&](uint32_t scale, double texel_share) {
         settings.scale = scale, settings.texel_share = texel_share;
-        return Director(ground().refiner, settings).key_cut_px();
+        TerrainGeometry geometry(ground().refiner);
+        return Director(geometry, settings).key_cut_px();
     };
     EXPECT_EQ(cut_px(2, 0.25), 0.125);
     EXPECT_EQ(cut_px(1, 0.25), 0.25);
