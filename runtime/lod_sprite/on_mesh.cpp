@@ -6,7 +6,7 @@
 namespace overlook::lod_sprite {
 namespace {
 
-// Whatever the camera asks for, at once, and nothing that it does not: neither bands nor glides.
+// Whatever the camera asks for, at once, without bands and glides.
 caveclod::Settings settings_of(double error_px) {
     caveclod::Settings settings;
     settings.error_px = error_px;

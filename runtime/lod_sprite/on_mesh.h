@@ -9,7 +9,7 @@
 
 namespace overlook::lod_sprite {
 
-// Two refinements of it, one for novel frames and one for keys; what a frame asks of each depends on its camera alone.
+// Two refinements of it, one for novel frames and one for keys; each goes on from the cut before.
 class MeshGeometry : public Geometry {
   public:
     explicit MeshGeometry(const caveclod::Mesh& mesh);  // must outlive it

@@ -61,6 +61,23 @@ TEST(MeasuredMesh, KeepsItsPromisesInEveryVariant) {
     }
 }
 
+// Keys show the mesh as finely as its own triangles do, on a cut that has far fewer.
+TEST(MeasuredMesh, IsShownBySpritesAsWell) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Torus torus({"lod-sprite@keyframe=at-once@samples=1", "caveclod@samples=1"});
+    CourseResult result = torus.run(context->renderer());
+    const RunResult& sprite = result.runs[0];
+    ASSERT_EQ(sprite.frames.size(), 6u);
+    for (const FrameRecord& frame : sprite.frames) {
+        SCOPED_TRACE(frame.frame);
+        EXPECT_EQ(*frame.numbers.hole_count, 0);
+        EXPECT_GT(frame.counters.resident_bytes, result.runs[1].frames[0].counters.resident_bytes);  // keys
+    }
+    EXPECT_GT(sprite.frames[0].counters.key_triangle_count, 0u);
+    EXPECT_EQ(sprite.frames[5].counters.key_triangle_count, 0u);
+    EXPECT_LT(2 * sprite.frames[5].counters.triangle_count, sprite.frames[0].counters.triangle_count);
+}
+
 // The paper's point: what cameras refine for themselves they need not refine again for each other.
 TEST(MeasuredMesh, CamerasOfTheirOwnSplitFarLessThanOnesThatShare) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);

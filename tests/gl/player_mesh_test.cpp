@@ -27,6 +27,17 @@ TEST_F(MeshPlayer, DrawsItInEveryWayWithinTheErrorAsked) {
     }
 }
 
+TEST_F(MeshPlayer, DrawsItBySprites) {
+    ASSERT_EQ(play(flown("lod-sprite") + in_folder("sprite.png") + " --headless"), 0) << output_;
+    nlohmann::json json = report();
+    EXPECT_EQ(json["method"], "lod-sprite");
+    uint32_t with_keys = 0;
+    for (const auto& frame : json["frames"]) with_keys += frame["keys"].get<int>() > 0;
+    EXPECT_GE(with_keys, 4u);
+    EXPECT_EQ(play(mesh_ + " --method lod-sprite --haze 1 --headless"), 2);  // a mesh has none
+    EXPECT_TRUE(is_one_line()) << output_;
+}
+
 TEST_F(MeshPlayer, DrawsInAWindowAsWithoutOne) {
     OVERLOOK_NEEDS_A_DISPLAY();
     ASSERT_EQ(run("xvfb-run -a " + kPlayer + " " + flown("caveclod") + in_folder("window.png")), 0) << output_;
@@ -50,16 +61,16 @@ TEST_F(MeshPlayer, ShowsTheWholeMeshWhereNobodySaysWhereFrom) {
 TEST_F(MeshPlayer, RefusesMethodsOfTheOtherKind) {
     EXPECT_EQ(play(mesh_ + " --method terrain --headless"), 2);
     EXPECT_EQ(output_, "player: --method terrain: it draws terrains, and " + mesh_ +
-                           " holds a mesh; that takes caveclod, caveclod:paper, caveclod:shared, discrete\n");
+                           " holds a mesh; that takes caveclod, caveclod:paper, caveclod:shared, discrete, lod-sprite\n");
     EXPECT_EQ(play(file_ + " --method discrete --headless"), 2);
     EXPECT_EQ(output_, "player: --method discrete: it draws meshes, and " + file_ +
                            " holds a terrain; that takes terrain, lod-sprite, lod-sprite:paper\n");
     EXPECT_EQ(play(mesh_ + " --morph 1 --headless"), 2);
     EXPECT_TRUE(is_one_line()) << output_;
-    write("scene.json", R"({"version":1,"layers":[{"asset":"sphere.ovl","method":"lod-sprite"}]})");
+    write("scene.json", R"({"version":1,"layers":[{"asset":"sphere.ovl","method":"lod-sprite:paper"}]})");
     EXPECT_EQ(play(in_folder("scene.json") + " --headless"), 3);
     EXPECT_TRUE(is_one_line()) << output_;
-    EXPECT_NE(output_.find("/layers/0/method: lod-sprite draws terrains"), std::string::npos) << output_;
+    EXPECT_NE(output_.find("/layers/0/method: lod-sprite:paper draws terrains"), std::string::npos) << output_;
 }
 
 TEST_F(MeshPlayer, KeepsABudgetOfTriangles) {
