@@ -1,5 +1,6 @@
 #include "runtime/command/command.h"
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>

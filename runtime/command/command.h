@@ -2,13 +2,19 @@
 // Overlook that prints or ends a process.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 
 #include "formats/result.h"
+
+// Who adds options includes <CLI/CLI.hpp>, which takes a compiler longer than most sources; who only says something need not.
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
 
 namespace overlook::command {
 

@@ -2,6 +2,7 @@
 
 #include "runtime/command/options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <limits>

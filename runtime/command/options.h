@@ -1,8 +1,9 @@
 // What command.cpp and options.cpp share; no other room needs it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "runtime/command/command.h"
 
 namespace overlook::command {
 

@@ -1,5 +1,7 @@
 // player: draws a scene or a baked terrain, in a window or into pictures.
 
+#include <CLI/CLI.hpp>
+
 #include "runtime/command/command.h"
 #include "runtime/player/headless.h"
 #include "runtime/player/options.h"

@@ -1,5 +1,6 @@
 #include "runtime/player/options.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 

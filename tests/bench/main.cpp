@@ -1,6 +1,7 @@
 // Overlook's hot functions on this machine, as CSV, with the machine's own limit measured in the same run. Google Benchmark's own
 // options (--benchmark_filter, --benchmark_min_time, ...) are taken as well.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "runtime/command/command.h"
 
 #include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <new>

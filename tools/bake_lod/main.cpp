@@ -1,5 +1,7 @@
 // bake-lod: levels of detail with certified errors, from elevation models and meshes.
 
+#include <CLI/CLI.hpp>
+
 #include "tools/bake_lod/mesh_verb.h"
 #include "tools/bake_lod/terrain_verb.h"
 

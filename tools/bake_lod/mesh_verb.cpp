@@ -1,5 +1,6 @@
 #include "tools/bake_lod/mesh_verb.h"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,6 @@
 #include "tools/bake_lod/terrain_verb.h"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 // baked: looks at a baked file, re-proves its promises, compares two, exports a cut.
 
+#include <CLI/CLI.hpp>
+
 #include "tools/baked/verbs.h"
 
 using namespace overlook;

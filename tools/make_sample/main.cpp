@@ -1,4 +1,5 @@
 // make-sample NAME -o DIR: generated inputs, ready to bake.
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "runtime/command/command.h"

@@ -1,5 +1,6 @@
 // measure: flies methods side by side over a scene and says what each costs and how far it is from the truth.
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <thread>
 

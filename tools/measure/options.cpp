@@ -1,5 +1,6 @@
 #include "tools/measure/options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 

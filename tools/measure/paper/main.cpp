@@ -1,5 +1,7 @@
 // reproduce PAPER: flies what a paper's experiments fly, and writes its figures anew.
 
+#include <CLI/CLI.hpp>
+
 #include "tools/measure/paper/caveclod/verb.h"
 #include "tools/measure/paper/lod_sprite/verb.h"
 

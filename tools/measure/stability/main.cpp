@@ -1,5 +1,6 @@
 // stability: runs the cases of the stability suite and says which gates every method keeps.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>

@@ -1,5 +1,6 @@
 #include "tools/measure/paper/caveclod/verb.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "formats/atomic_file.h"

@@ -1,5 +1,6 @@
 #include "tools/measure/paper/lod_sprite/verb.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
