@@ -67,7 +67,7 @@ constexpr std::string_view kFigures[] = {
     "changes_of_sign",
     "path_difference_grey",
 };
-constexpr std::string_view kMeshMethods[] = {"caveclod", "discrete"};
+constexpr std::string_view kMeshMethods[] = {"lod-sprite", "caveclod", "discrete"};  // draw meshes, the first terrains as well
 constexpr std::string_view kSides[] = {"all", "geometry", "image"};
 
 template <class Names>
@@ -169,8 +169,7 @@ Case for_meshes(Case each) {
 }
 
 bool is_of_meshes_alone(const Case& each) {
-    auto is_of_mesh = [](const std::string& method) { return is_one_of(kMeshMethods, method); };
-    return !each.runs.empty() && std::all_of(each.runs.begin(), each.runs.end(), is_of_mesh);
+    return !each.runs.empty() && each.scene.empty();
 }
 
 std::span<const std::string_view> figure_names() {

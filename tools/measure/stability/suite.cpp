@@ -86,15 +86,15 @@ Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const Meth
     CaseRunner run = runner_of(each.number);
     std::vector<MethodSpec> geometry, image, mesh;
     for (const MethodSpec& spec : specs) {
-        if (run != nullptr && has(each.runs, spec.name))
-            (is_image(spec) ? image : draws_meshes(spec) ? mesh : geometry).push_back(spec);
+        if (run == nullptr || !has(each.runs, spec.name) || (is_of_meshes_alone(each) && !draws_meshes(spec))) continue;
+        (is_image(spec) ? image : draws_terrains(spec) ? geometry : mesh).push_back(spec);
     }
     for (const std::string& method : each.methods) {
         if (run == nullptr || !has(each.runs, method)) result.owed.push_back({each.number, each.what, method});
     }
     for (const std::vector<MethodSpec>& concerned : {geometry, image, mesh}) {
         if (concerned.empty()) continue;
-        bool is_mesh = draws_meshes(concerned.front());
+        bool is_mesh = is_of_meshes_alone(each) || !draws_terrains(concerned.front());
         Result<void> ran = run_case_for(suite_stage, is_mesh ? for_meshes(each) : each, run, concerned, result, world_of);
         if (!ran) return ran;
     }
