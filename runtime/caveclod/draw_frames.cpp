@@ -148,20 +148,15 @@ FrameCounts FrameDrawer::draw(const gl::Target& target, const DrawOptions& look)
 
 std::vector<glm::dvec3> FrameDrawer::drawn_corners_m() const {
     std::vector<glm::dvec3> corners;
-    auto place_of = [&](uint32_t vertex) {
-        if (vertex < mesh_.vertex_count()) return mesh_.vertex_m(vertex);
-        const GlideVertex& glide = refinements_.front()->glide_vertices()[vertex - mesh_.vertex_count()];
-        if (!glide.glides()) return mesh_.vertex_m(glide.to());
-        return glm::mix(mesh_.vertex_m(glide.from[0]), mesh_.vertex_m(glide.to()), double(glide.share));
-    };
-    auto add = [&](uint32_t vertex) { corners.push_back(mesh_.origin_m() + place_of(vertex)); };
+    auto add_own = [&](uint32_t index) { corners.push_back(refinements_.front()->place_m(index)); };
+    auto add = [&](uint32_t vertex) { corners.push_back(mesh_.origin_m() + mesh_.vertex_m(vertex)); };
     for (const std::vector<uint32_t>& indices : paper_faces_) std::for_each(indices.begin(), indices.end(), add);
     if (refinements_.empty()) return corners;
     const FaceSlots& faces = refinements_.front()->faces();
     for (uint32_t surface = 0; surface < faces.surface_count(); ++surface) {
         for (uint32_t page = 0; page < faces.pages(surface).size(); ++page) {
             const FacePage& one = *faces.pages(surface)[page];
-            std::for_each(one.indices.begin(), one.indices.begin() + 3 * faces.page_count(surface, page), add);
+            std::for_each(one.indices.begin(), one.indices.begin() + 3 * faces.page_count(surface, page), add_own);
         }
     }
     return corners;
