@@ -23,6 +23,7 @@ class BlockFile {
     uint32_t face_count() const { return face_count_; }
     uint32_t vertex_count() const { return vertex_count_; }
     uint32_t first_split(uint32_t block) const { return entries_[block].first_split; }
+    uint64_t stored_begin(uint32_t block) const { return entries_[block].offset; }  // in MBLK
     // The stated error of the cut with every split of the first `blocks` blocks (1 at least) applied.
     float finest_error_m(uint32_t blocks) const;
     // Of what blocks after the first `blocks` hold: no split there bounds more. 0 if there is none.

@@ -64,7 +64,8 @@ void Mesh::grow(Mesh&& finer) {
     surfaces_ = std::move(surfaces);
 }
 
-void Mesh::shrink(uint32_t split_count, uint32_t vertex_count, float missing_error_m) {
+void Mesh::shrink(const Extent& extent, float missing_error_m) {
+    auto [split_count, face_count, vertex_count] = extent;
     auto cut = [](auto& vector, size_t size) {
         if (vector.size() <= size) return;
         vector.resize(size);
@@ -77,7 +78,7 @@ void Mesh::shrink(uint32_t split_count, uint32_t vertex_count, float missing_err
     cut(vertex_rows_, position_count), cut(wide_rows_, position_count);
     cut(vertices_, vertex_count), cut(colours_, vertex_count);
     cut(roots_, size_t(std::lower_bound(roots_.begin(), roots_.end(), split_count) - roots_.begin()));
-    split_limit_ = split_count;
+    split_limit_ = split_count, face_count_ = face_count;
     missing_error_m_ = missing_error_m, finest_error_m_ = std::max(finest_error_m_, missing_error_m);
 }
 

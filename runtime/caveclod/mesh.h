@@ -64,9 +64,13 @@ class Mesh {
 
     // Becomes the mesh of more splits of the same hierarchy, with the surfaces that it has itself. Cost O(1).
     void grow(Mesh&& finer);
-    // Keeps the first splits alone, with the bounds and records that they have. vertex_count: of the positions that are left;
-    // missing_error_m: as WholeMesh's. Cost O(what is left).
-    void shrink(uint32_t split_count, uint32_t vertex_count, float missing_error_m);
+    // Keeps the first splits alone, with the bounds and records that they have. extent: as it was of them; missing_error_m: as
+    // WholeMesh's. Cost O(what is left).
+    struct Extent {
+        uint32_t split_count = 0, face_count = 0, vertex_count = 0;
+    };
+    Extent extent() const { return {split_count(), face_count(), vertex_count()}; }
+    void shrink(const Extent& extent, float missing_error_m);
     // Splits from here on are on their way out: refinements collapse them and split none. split_count() if none is.
     void set_split_limit(uint32_t split_limit) { split_limit_ = split_limit; }
     void set_surfaces(std::vector<Surface> surfaces) { surfaces_ = std::move(surfaces); }  // as many as there are
