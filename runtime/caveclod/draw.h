@@ -59,6 +59,8 @@ class Drawing {
     // Fails with Exit::impossible if the mesh is too large for the renderer. Pictures that cannot be read (only PNG can) are left
     // out: their surfaces keep their colour; why stands in faults().
     static Result<Drawing> make(const Mesh& mesh);
+    // The mesh has grown or shrunk (MeshStream): uploads the vertices that are new. Fails as make(). Returns how many bytes.
+    Result<uint64_t> take_vertices(const Mesh& mesh);
     const std::vector<std::string>& faults() const { return faults_; }
 
     // Draws a plain background and the faces into `target` and resolves it.
@@ -79,13 +81,14 @@ class Drawing {
         bool is_two_sided = false;
     };
     Drawing() = default;
+    void resize_buffers(uint32_t capacity, bool has_colours);
     Result<void> make_programs();
     Result<void> make_looks(const Mesh& mesh);
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
 
     glm::dvec3 origin_m_{0};
     Grid grid_;
-    uint32_t vertex_count_ = 0;
+    uint32_t glide_begin_ = 0, vertex_count_ = 0, capacity_ = 0;  // vertex_count_: uploaded
     gl::Buffer vertices_, colours_;
     gl::Texture vertices_view_, colours_view_;
     gl::VertexArray nothing_;

@@ -43,7 +43,7 @@ void FrameDrawer::take(const FrameReport& report, bool is_drawn) {
     counts_.evaluated_count += report.evaluated_count;
     counts_.refined_triangle_count += report.triangle_count;
     counts_.is_settled = counts_.is_settled && report.is_settled;
-    if (is_drawn) counts_.error_px = report.error_px;
+    if (is_drawn) counts_.error_px = report.error_px, counts_.missing_px = report.missing_px;
 }
 
 void FrameDrawer::decide(const view::Camera& camera, double dt_s) {
@@ -144,6 +144,11 @@ FrameCounts FrameDrawer::draw(const gl::Target& target, const DrawOptions& look)
     counts_.triangle_count = buffers_.front()->triangle_count();
     counts_.draw_call_count = buffers_.front()->draw_call_count() + 1;  // and the background
     return counts_;
+}
+
+void FrameDrawer::take_note(MeshStream& stream, size_t mesh) const {
+    for (size_t i = 0; i < refinements_.size(); ++i)
+        stream.take_note(mesh, *refinements_[i], cameras_[i], options_.settings, reports_[i].missing_px);
 }
 
 std::vector<glm::dvec3> FrameDrawer::drawn_corners_m() const {
