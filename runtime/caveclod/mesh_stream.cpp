@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 #include "formats/numbers.h"
 
@@ -59,6 +58,7 @@ struct MeshStream::Part {
     std::vector<Seen> seen;             // in this frame
     double missing_px = 0;
     bool is_wanted = false;
+    uint32_t staying = 0;  // of the blocks that are there, those that do not give way to others
 
     // The worker's while a block is on its way; there is one at most.
     std::unique_ptr<PrefixReader> prefix;
@@ -67,11 +67,11 @@ struct MeshStream::Part {
 
     uint32_t there() const { return uint32_t(extents.size()); }
     bool is_yielding() const { return mesh->split_limit() < mesh->split_count(); }
-    // What would be missing then, as it is seen.
-    double px_without_last() const {
+    // What would be missing with so many blocks, as it is seen.
+    double px_with(uint32_t blocks) const {
         double px = 0;
         for (const Seen& one : seen)
-            px = std::max(px, one.refinement->displaced_px(*one.camera, *one.settings, file->missing_error_m(there() - 1), 0));
+            px = std::max(px, one.refinement->displaced_px(*one.camera, *one.settings, file->missing_error_m(blocks), 0));
         return px;
     }
     uint64_t held() const {
@@ -224,23 +224,32 @@ void MeshStream::ask() {
     }
 }
 
-// Of what has found no room, who lacks most may have that of another's last block.
+// Of what has found no room, who lacks most may have that of the last blocks of others, those first that show it least. Nobody
+// yields anything unless all together is enough.
 void MeshStream::give_way() {
-    Part *lacking = nullptr, *yielding = nullptr;
-    double least_px = std::numeric_limits<double>::infinity();
+    Part* lacking = nullptr;
     for (const std::unique_ptr<Part>& part : parts_) {
         part->mesh->set_split_limit(part->mesh->split_count());
+        part->staying = part->there();
         if (part->is_wanted && part->there() < part->block_count && (!lacking || part->missing_px > lacking->missing_px))
             lacking = part.get();
     }
     if (lacking == nullptr || stream_->counts().refused_count == 0) return;
-    for (const std::unique_ptr<Part>& part : parts_) {
-        if (part.get() == lacking || part->there() < 2) continue;
-        double px = part->px_without_last();
-        if (px < least_px) yielding = part.get(), least_px = px;
+    uint64_t held = stream_->counts().resident_bytes + stream_->counts().on_the_way_bytes;
+    uint64_t wanted = held + lacking->planned_bytes[lacking->there()];
+    while (wanted > budget_bytes_) {
+        Part* yielding = nullptr;
+        double least_px = kYieldingShare * lacking->missing_px;
+        for (const std::unique_ptr<Part>& part : parts_) {
+            if (part.get() == lacking || part->staying < 2) continue;
+            double px = part->px_with(part->staying - 1);
+            if (px < least_px) yielding = part.get(), least_px = px;
+        }
+        if (yielding == nullptr) return;
+        wanted -= std::min(wanted, yielding->held_bytes[--yielding->staying]);
     }
-    if (yielding == nullptr || !(least_px < kYieldingShare * lacking->missing_px)) return;
-    yielding->mesh->set_split_limit(yielding->extents[yielding->there() - 2].split_count);
+    for (const std::unique_ptr<Part>& part : parts_)
+        part->mesh->set_split_limit(part->extents[part->staying - 1].split_count);
 }
 
 void MeshStream::end_frame() {
