@@ -60,8 +60,7 @@ Result<void> PrefixReader::read_next() {
         return broken(file, 9, "block {}: its bytes do not match their checksum; was the file damaged?", block);
     if (const char* fault = rows_of_bytes(bytes, file_.codec_, rows_)) return broken(file, 10, "block {} {}", block, fault);
     uint32_t greatest = 0;
-    Fault fault =
-        block == 0 ? unpacker_.base(rows_, file_.group_count_) : unpacker_.splits(rows_, entry.split_count, greatest);
+    Fault fault = block == 0 ? unpacker_.base(rows_, file_.group_count_) : unpacker_.splits(rows_, entry.split_count, greatest);
     if (fault) return broken(file, fault.rule, "block {} {}", block, fault.text);
     // What is left of splits after a block, by the directory.
     uint32_t after = block + 1 < file_.block_count() ? file_.entries_[block + 1].rest_error : 0;
@@ -86,10 +85,10 @@ Result<void> PrefixReader::complete() {
 
 uint64_t PrefixReader::bytes() const {
     const Hierarchy& h = hierarchy_;
-    return unpacker_.bytes() +
-           bytes_of(h.positions_m, h.owner, h.error_m, h.radius_m, h.cone, h.need_begin, h.needs, h.added_begin, h.moved_begin,
-                    h.moved, h.face_positions, h.face_group, h.group_surface, h.group_packed, h.vertices, h.vertex_begin,
-                    h.birth_wedge, h.moved_wedge, h.moved_back_wedge);
+    return unpacker_.bytes() + bytes_of(h.positions_m, h.owner, h.error_m, h.radius_m, h.cone, h.need_begin, h.needs,
+                                        h.added_begin, h.moved_begin, h.moved, h.face_positions, h.face_group, h.group_surface,
+                                        h.group_packed, h.vertices, h.vertex_begin, h.birth_wedge, h.moved_wedge,
+                                        h.moved_back_wedge);
 }
 
 }  // namespace overlook::caveclod

@@ -90,8 +90,8 @@ Result<void> HeadReader::read_flags(std::span<const std::byte> bytes) {
     out_.greatest_error_ = load_le<uint32_t>(bytes, info_at::greatest_error);
     bool is_zero = true;
     for (size_t at = info_at::reserved; at < info_at::bytes; ++at) is_zero = is_zero && bytes[at] == std::byte(0);
-    if (attributes > 7 || codec > uint32_t(Codec::draco) ||
-        std::max(out_.finest_error_, out_.greatest_error_) > kErrorCodeMax || !is_zero)
+    if (attributes > 7 || codec > uint32_t(Codec::draco) || std::max(out_.finest_error_, out_.greatest_error_) > kErrorCodeMax ||
+        !is_zero)
         return broken(file_, 5, "attributes {}, codec {}, error codes {} and {}, or a reserved number that is not 0", attributes,
                       codec, out_.finest_error_, out_.greatest_error_);
     out_.codec_ = Codec(codec);
@@ -139,8 +139,7 @@ Result<void> HeadReader::read_directory(const Section& section, const Section& b
         if (auto ok = check_entry(i, entry, offset, split_count, blocks.stored_bytes); !ok) return ok;
         offset += entry.stored_bytes, split_count += entry.split_count;
     }
-    if (split_count != out_.split_count_)
-        return broken(file_, 7, "{} splits in all, {} stated", split_count, out_.split_count_);
+    if (split_count != out_.split_count_) return broken(file_, 7, "{} splits in all, {} stated", split_count, out_.split_count_);
     if (offset != blocks.stored_bytes)
         return broken(file_, 8, "the last block ends at {} of {} bytes", offset, blocks.stored_bytes);
     out_.stored_ = file_.stored(blocks);
@@ -149,8 +148,8 @@ Result<void> HeadReader::read_directory(const Section& section, const Section& b
 
 Result<void> HeadReader::run() {
     static constexpr container::Tag kKnown[] = {kInfoTag, kDirectoryTag, kBlocksTag, kSurfacesTag, container::tag("PROV")};
-    const Section *info_section = file_.find(kInfoTag), *directory = file_.find(kDirectoryTag),
-                  *blocks = file_.find(kBlocksTag), *surfaces = file_.find(kSurfacesTag);
+    const Section *info_section = file_.find(kInfoTag), *directory = file_.find(kDirectoryTag), *blocks = file_.find(kBlocksTag),
+                  *surfaces = file_.find(kSurfacesTag);
     if (file_.kind() != kKind || !info_section || !directory || !blocks || !surfaces)
         return broken(file_, 1, "is no baked mesh (its kind is {})", container::tag_text(file_.kind()));
     if (auto known = file_.require_known(kKnown); !known) return tl::unexpected(known.error());

@@ -18,9 +18,9 @@
 namespace overlook::caveclod {
 
 struct DrawOptions {
-    bool is_wireframe = false;      // the triangles' edges alone
-    bool culls_back_faces = false;  // of surfaces that are not two-sided; the same as Settings of the refinement
-    glm::dvec3 origin_m{0};         // where the mesh's own world has its origin in that of the camera
+    bool is_wireframe = false;       // the triangles' edges alone
+    bool culls_back_faces = false;   // of surfaces that are not two-sided; the same as Settings of the refinement
+    glm::dvec3 origin_m{0};          // where the mesh's own world has its origin in that of the camera
     std::optional<view::Part> part;  // of the camera's picture, that the target shows; the whole of it if not said
 };
 

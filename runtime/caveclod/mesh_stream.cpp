@@ -248,8 +248,7 @@ void MeshStream::give_way() {
         if (yielding == nullptr) return;
         wanted -= std::min(wanted, yielding->held_bytes[--yielding->staying]);
     }
-    for (const std::unique_ptr<Part>& part : parts_)
-        part->mesh->set_split_limit(part->extents[part->staying - 1].split_count);
+    for (const std::unique_ptr<Part>& part : parts_) part->mesh->set_split_limit(part->extents[part->staying - 1].split_count);
 }
 
 void MeshStream::end_frame() {

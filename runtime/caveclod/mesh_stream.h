@@ -15,9 +15,9 @@
 
 namespace overlook::caveclod {
 
-// A mesh's blocks each need the one before, so what is there of a mesh is always its first blocks: a mesh of its own, the one that
-// read(file, blocks) gives. It grows by a whole block between two frames, under the refinements of all cameras that share it, and
-// loses its last block when no refinement stands on that any more.
+// A mesh's blocks each need the one before, so what is there of a mesh is always its first blocks: a mesh of its own, the one
+// that read(file, blocks) gives. It grows by a whole block between two frames, under the refinements of all cameras that share
+// it, and loses its last block when no refinement stands on that any more.
 //
 // Several meshes share one budget: an error in pixels means the same in each, so that room goes where the picture lacks most. Of
 // its own budget each would keep room that another needs. Where all room is in use, the mesh that lacks most takes the last block
@@ -28,8 +28,8 @@ namespace overlook::caveclod {
 // what its rows state, and known when it is there.
 class MeshStream {
   public:
-    // Takes in the coarsest cuts, which stay. Blocks that are beyond the budget by themselves never come. Fails as BlockFile::open,
-    // read(), Mesh::make and stream::Stream.
+    // Takes in the coarsest cuts, which stay. Blocks that are beyond the budget by themselves never come. Fails as
+    // BlockFile::open, read(), Mesh::make and stream::Stream.
     static Result<std::unique_ptr<MeshStream>> open(std::vector<container::Reader> files, const stream::Settings& settings);
     MeshStream(const MeshStream&) = delete;
     MeshStream& operator=(const MeshStream&) = delete;

@@ -79,14 +79,14 @@ Result<void> check_fit(const Options& options, Method method) {
         const char* takers = "terrain does";
     };
     bool is_terrain = method == Method::terrain, is_triangles = has_wireframe(method);
-    const Rule kRules[] = {{"--triangles", options.triangles > 0, takes_budgets(method)},
-                           {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
-                           {"--morph", options.sets_morph, is_terrain},
-                           {"--stream-memory", options.stream_memory_bytes > 0, is_terrain || method == Method::caveclod,
-                            "terrain and caveclod do"},
-                           {"--wireframe", options.wireframe, is_triangles},
-                           {"--split-picture", options.split_picture, is_terrain},
-                           {"--haze", options.sets_haze, !draws_meshes(method)}};
+    const Rule kRules[] = {
+        {"--triangles", options.triangles > 0, takes_budgets(method)},
+        {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
+        {"--morph", options.sets_morph, is_terrain},
+        {"--stream-memory", options.stream_memory_bytes > 0, is_terrain || method == Method::caveclod, "terrain and caveclod do"},
+        {"--wireframe", options.wireframe, is_triangles},
+        {"--split-picture", options.split_picture, is_terrain},
+        {"--haze", options.sets_haze, !draws_meshes(method)}};
     for (const Rule& rule : kRules) {
         if (rule.is_given && !rule.is_taken)
             return bad_command("{}: {} does not take it; --method {}", rule.name, name_of(method), rule.takers);

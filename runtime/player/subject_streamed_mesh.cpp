@@ -73,7 +73,8 @@ class StreamedMeshSubject : public MeshRoom {
 
 }  // namespace
 
-Result<std::unique_ptr<Subject>> read_streamed_mesh(container::Reader file, const LayerMethod& layer, const Streaming& streaming) {
+Result<std::unique_ptr<Subject>> read_streamed_mesh(container::Reader file, const LayerMethod& layer,
+                                                    const Streaming& streaming) {
     std::vector<container::Reader> files;
     files.push_back(std::move(file));
     Result<std::unique_ptr<caveclod::MeshStream>> stream = caveclod::MeshStream::open(std::move(files), streaming.settings);

@@ -19,8 +19,9 @@ Result<std::unique_ptr<Stream>> Stream::open(std::string name, Source source, co
     assert(settings.worker_count >= 1 && settings.latency_frames.value_or(1) >= 1);
     for (uint32_t block = 0; block < source.block_count(); ++block) {
         uint64_t bytes = source.decoded_bytes[block], upload = source.upload_bytes_of(block);
-        bool is_upload = upload > settings.upload_budget_bytes &&
-                         (bytes <= settings.residency_budget_bytes || settings.upload_budget_bytes <= settings.residency_budget_bytes);
+        bool is_upload =
+            upload > settings.upload_budget_bytes &&
+            (bytes <= settings.residency_budget_bytes || settings.upload_budget_bytes <= settings.residency_budget_bytes);
         if (!is_upload && bytes <= settings.residency_budget_bytes) continue;
         return impossible("{}: block {} takes {} bytes; {} budget of {} is too small for it", name, block,
                           with_commas(is_upload ? upload : bytes), is_upload ? "an upload" : "a residency",

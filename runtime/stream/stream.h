@@ -27,7 +27,7 @@ struct Source {
     std::vector<uint64_t> decoded_bytes;         // [n], 1 at least
     std::vector<uint32_t> need_begin{0}, needs;  // [n + 1], [..] compressed rows: blocks that come before block i, all below i
 
-    std::vector<uint64_t> upload_bytes;          // [n] of what a frame takes over with a block; empty: all of it
+    std::vector<uint64_t> upload_bytes;  // [n] of what a frame takes over with a block; empty: all of it
     // The source itself keeps what it decodes, in decoded_bytes at most, until the block is dropped.
     bool keeps_blocks = false;
 
@@ -36,9 +36,7 @@ struct Source {
     std::function<Result<Bytes>(uint32_t block, std::span<const std::span<const std::byte>> needed)> decode;
 
     uint32_t block_count() const { return uint32_t(decoded_bytes.size()); }
-    uint64_t upload_bytes_of(uint32_t block) const {
-        return upload_bytes.empty() ? decoded_bytes[block] : upload_bytes[block];
-    }
+    uint64_t upload_bytes_of(uint32_t block) const { return upload_bytes.empty() ? decoded_bytes[block] : upload_bytes[block]; }
     std::span<const uint32_t> needs_of(uint32_t block) const {
         return std::span(needs).subspan(need_begin[block], need_begin[block + 1] - need_begin[block]);
     }

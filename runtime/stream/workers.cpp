@@ -24,9 +24,8 @@ Result<Bytes> Workers::decode(const Source& source, const Order& order) {
         Result<Bytes> decoded = source.decode(order.block, order.needed);
         uint64_t wanted = source.keeps_blocks ? 0 : source.decoded_bytes[order.block];
         if (decoded && decoded->size() != wanted)
-            return tl::unexpected(
-                Error{Exit::our_bug, fmt::format("a streamed block {} decodes to {} bytes, {} were announced", order.block,
-                                                 decoded->size(), wanted)});
+            return tl::unexpected(Error{Exit::our_bug, fmt::format("a streamed block {} decodes to {} bytes, {} were announced",
+                                                                   order.block, decoded->size(), wanted)});
         return decoded;
     } catch (const std::bad_alloc&) {
         return impossible("there is not enough memory for a streamed block of {} bytes", source.decoded_bytes[order.block]);

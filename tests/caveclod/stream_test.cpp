@@ -351,8 +351,7 @@ TEST(MeshStream, IsSharedByManyCameras) {
         stream->end_frame();
     }
     EXPECT_EQ(stream->resident_block_count(0), 5u);
-    for (size_t k = 0; k < kCameras; ++k)
-        EXPECT_TRUE(is_closed(hills().hierarchy, applied(hills().hierarchy, cameras[k]))) << k;
+    for (size_t k = 0; k < kCameras; ++k) EXPECT_TRUE(is_closed(hills().hierarchy, applied(hills().hierarchy, cameras[k]))) << k;
 }
 
 TEST(MeshStream, RefusesInOneLineWhatIsTooLittle) {
