@@ -55,6 +55,8 @@ uint64_t block_checksum(std::span<const std::byte> bytes);
 Result<std::vector<std::byte>> bytes_of_rows(const Rows& rows, Codec codec);
 // The same back; null, or what is wrong. `bytes` may be hostile: no more memory is taken than kValuesPerByte allows.
 const char* rows_of_bytes(std::span<const std::byte> bytes, Codec codec, Rows& rows);
+// How many numbers each row states, without decoding them. False if the bytes end before.
+bool count_rows(std::span<const std::byte> bytes, Codec codec, std::array<uint32_t, kRowCount>& counts);
 
 // MSUR's bytes, and back; null, or what is wrong.
 std::vector<std::byte> bytes_of_surfaces(const std::vector<Surface>& surfaces);
@@ -102,6 +104,7 @@ class Unpacker {
     Unpacker(Hierarchy& hierarchy, uint32_t greatest_error) : hierarchy_(hierarchy), greatest_error_(greatest_error) {}
     Fault base(const Rows& rows, uint32_t group_count);
     Fault splits(const Rows& rows, uint32_t count, uint32_t& greatest_error);
+    uint64_t bytes() const;  // beside the hierarchy
 
   private:
     bool take(Row row, uint32_t& value);

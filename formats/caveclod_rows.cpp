@@ -131,6 +131,20 @@ const char* rows_of_bytes(std::span<const std::byte> bytes, Codec codec, Rows& r
     return nullptr;
 }
 
+bool count_rows(std::span<const std::byte> bytes, Codec codec, std::array<uint32_t, kRowCount>& counts) {
+    Scan scan(bytes);
+    std::span<const std::byte> stored;
+    for (uint32_t& count : counts) {
+        uint32_t packed_bytes = 0;
+        if (!scan.u32(count)) return false;
+        for (size_t first = 0; first < count; first += kMostChunkValues) {
+            if (codec == Codec::meshopt && !scan.u32(packed_bytes)) return false;
+            if (!scan.sized(stored)) return false;
+        }
+    }
+    return true;
+}
+
 std::vector<std::byte> bytes_of_surfaces(const std::vector<Surface>& surfaces) {
     std::vector<std::byte> bytes;
     for (const Surface& surface : surfaces) {

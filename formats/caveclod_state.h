@@ -28,6 +28,12 @@ class MeshState {
 
     size_t position_count() const { return first_.size(); }
     size_t face_count() const { return positions_.size(); }
+    // What so many faces and positions take.
+    static uint64_t bytes(uint64_t face_count, uint64_t position_count) {
+        return face_count * (3 * sizeof(uint32_t) + 3 * sizeof(uint16_t) + sizeof(uint32_t) + 2 * kCorners * sizeof(uint32_t)) +
+               position_count * sizeof(uint32_t);
+    }
+    uint64_t bytes() const { return bytes(face_count(), position_count()); }
     uint32_t position(uint32_t corner) const { return positions_[corner / kCorners][corner % kCorners]; }
     uint16_t wedge(uint32_t corner) const { return wedges_[corner / kCorners][corner % kCorners]; }
     const std::array<uint32_t, 3>& positions(uint32_t face) const { return positions_[face]; }

@@ -304,4 +304,9 @@ Fault Unpacker::splits(const Rows& rows, uint32_t count, uint32_t& greatest_erro
     return rows_are_done() ? kFine : Fault{10, "has numbers that nothing asks for"};
 }
 
+uint64_t Unpacker::bytes() const {
+    return state_.bytes() + positions_.size() * sizeof(GridPosition) + vertices_.size() * sizeof(Steps) +
+           error_codes_.size() * sizeof(uint32_t);
+}
+
 }  // namespace overlook::caveclod

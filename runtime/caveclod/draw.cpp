@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
 #include "runtime/caveclod/draw_shaders.h"
 #include "runtime/gl/background.h"
@@ -110,19 +111,9 @@ uint64_t CameraBuffers::triangle_count() const {
 }
 
 Result<Drawing> Drawing::make(const Mesh& mesh) {
-    GLint most_texels = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
-    if (mesh.vertex_count() > uint32_t(most_texels))
-        return impossible("a mesh of {} vertices is too large to draw at once ({} at most)", mesh.vertex_count(), most_texels);
     Drawing made;
-    made.origin_m_ = mesh.origin_m(), made.grid_ = mesh.grid(), made.vertex_count_ = mesh.vertex_count();
-    made.vertices_ = gl::make_buffer(std::as_bytes(mesh.vertices()));
-    made.vertices_view_ = gl::make_view(made.vertices_.id(), GL_RGBA32UI);
-    if (!mesh.colours().empty()) {
-        made.colours_ = gl::make_buffer(std::as_bytes(mesh.colours()));
-        made.colours_view_ = gl::make_view(made.colours_.id(), GL_R32UI);
-    }
-    if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the mesh does not fit into the renderer's memory");
+    made.origin_m_ = mesh.origin_m(), made.grid_ = mesh.grid(), made.glide_begin_ = mesh.glide_begin();
+    if (Result<uint64_t> taken = made.take_vertices(mesh); !taken) return tl::unexpected(taken.error());
     made.grid_.normal_bits = mesh.attributes().normals ? made.grid_.normal_bits : 0;
     made.has_colours_ = made.colours_.id() != 0;
     made.nothing_ = gl::make_vertex_array();
@@ -133,12 +124,53 @@ Result<Drawing> Drawing::make(const Mesh& mesh) {
 
 Result<Drawing> Drawing::sharing(const Drawing& first) {
     Drawing made;
-    made.origin_m_ = first.origin_m_, made.grid_ = first.grid_, made.vertex_count_ = first.vertex_count_;
+    made.origin_m_ = first.origin_m_, made.grid_ = first.grid_, made.glide_begin_ = first.glide_begin_;
     made.has_colours_ = first.has_colours_;
     made.first_ = &first;
     made.nothing_ = gl::make_vertex_array();
     if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
     return made;
+}
+
+// What was uploaded stays, as far as there is room.
+void Drawing::resize_buffers(uint32_t capacity, bool has_colours) {
+    auto resize = [&](gl::Buffer& buffer, gl::Texture& view, size_t vertex_bytes, GLenum format) {
+        GLuint id = 0;
+        glCreateBuffers(1, &id);
+        gl::Buffer resized(id);
+        glNamedBufferStorage(id, GLsizeiptr(capacity * vertex_bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+        if (vertex_count_ > 0) glCopyNamedBufferSubData(buffer.id(), id, 0, 0, GLsizeiptr(vertex_count_ * vertex_bytes));
+        buffer = std::move(resized);
+        view = gl::make_view(buffer.id(), format);
+    };
+    resize(vertices_, vertices_view_, sizeof(PackedVertex), GL_RGBA32UI);
+    if (has_colours) resize(colours_, colours_view_, sizeof(uint32_t), GL_R32UI);
+    capacity_ = capacity;
+}
+
+Result<uint64_t> Drawing::take_vertices(const Mesh& mesh) {
+    uint32_t count = mesh.vertex_count(), before = std::min(vertex_count_, count);
+    GLint most_texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+    if (count > uint32_t(most_texels))
+        return impossible("a mesh of {} vertices is too large to draw at once ({} at most)", count, most_texels);
+    vertex_count_ = before;
+    if (count > capacity_ || count < capacity_ / 2) {
+        // One that is there as a whole never grows.
+        uint32_t more = count < mesh.glide_begin() ? count / 4 : 0;
+        resize_buffers(std::min({count + more, mesh.glide_begin(), uint32_t(most_texels)}), !mesh.colours().empty());
+    }
+    if (count == before) return 0;
+    auto upload = [&](const gl::Buffer& buffer, auto all) {
+        auto fresh = std::as_bytes(all.subspan(before));
+        glNamedBufferSubData(buffer.id(), GLintptr(before * sizeof(all[0])), GLsizeiptr(fresh.size()), fresh.data());
+        return uint64_t(fresh.size());
+    };
+    uint64_t bytes = upload(vertices_, mesh.vertices());
+    if (!mesh.colours().empty()) bytes += upload(colours_, mesh.colours());
+    vertex_count_ = count;
+    if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the mesh does not fit into the renderer's memory");
+    return bytes;
 }
 
 Result<void> Drawing::make_looks(const Mesh& mesh) {
@@ -190,7 +222,7 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
     view::PartMap map = view::part_map(camera, part_of(camera, options));
     glUniform4f(program.at("part"), float(map.scale.x), float(map.scale.y), float(map.shift.x), float(map.shift.y));
-    glUniform1ui(program.at("vertex_count"), vertex_count_);
+    glUniform1ui(program.at("glide_begin"), glide_begin_);
     glUniform1ui(program.at("low_bits"), grid_.position_bits > 16 ? grid_.position_bits - 16 : 0);
     glUniform1i(program.at("has_colours"), has_colours_ ? 1 : 0);
     glUniform3i(program.at("camera_steps"), GLint(whole.x), GLint(whole.y), GLint(whole.z));

@@ -18,9 +18,9 @@
 namespace overlook::caveclod {
 
 struct DrawOptions {
-    bool is_wireframe = false;      // the triangles' edges alone
-    bool culls_back_faces = false;  // of surfaces that are not two-sided; the same as Settings of the refinement
-    glm::dvec3 origin_m{0};         // where the mesh's own world has its origin in that of the camera
+    bool is_wireframe = false;       // the triangles' edges alone
+    bool culls_back_faces = false;   // of surfaces that are not two-sided; the same as Settings of the refinement
+    glm::dvec3 origin_m{0};          // where the mesh's own world has its origin in that of the camera
     std::optional<view::Part> part;  // of the camera's picture, that the target shows; the whole of it if not said
 };
 
@@ -63,6 +63,8 @@ class Drawing {
     // first's, which must outlive it and stay where it is. So both may draw at once, each in its own thread. Fails with
     // Exit::our_bug.
     static Result<Drawing> sharing(const Drawing& first);
+    // The mesh has grown or shrunk (MeshStream): uploads the vertices that are new. Fails as make(). Returns how many bytes.
+    Result<uint64_t> take_vertices(const Mesh& mesh);
     const std::vector<std::string>& faults() const { return faults_; }
 
     // Draws a plain background and the faces into `target` and resolves it.
@@ -83,13 +85,14 @@ class Drawing {
         bool is_two_sided = false;
     };
     Drawing() = default;
+    void resize_buffers(uint32_t capacity, bool has_colours);
     Result<void> make_programs();
     Result<void> make_looks(const Mesh& mesh);
     void set_camera(const gl::Program& program, const view::Camera& camera, const DrawOptions& options) const;
 
     glm::dvec3 origin_m_{0};
     Grid grid_;
-    uint32_t vertex_count_ = 0;
+    uint32_t glide_begin_ = 0, vertex_count_ = 0, capacity_ = 0;  // vertex_count_: uploaded
     bool has_colours_ = false;
     const Drawing* first_ = nullptr;  // whose buffers and pictures it draws with, where it has none
     gl::Buffer vertices_, colours_;

@@ -43,7 +43,7 @@ void FrameDrawer::take(const FrameReport& report, bool is_drawn) {
     counts_.evaluated_count += report.evaluated_count;
     counts_.refined_triangle_count += report.triangle_count;
     counts_.is_settled = counts_.is_settled && report.is_settled;
-    if (is_drawn) counts_.error_px = report.error_px;
+    if (is_drawn) counts_.error_px = report.error_px, counts_.missing_px = report.missing_px;
 }
 
 void FrameDrawer::decide(const view::Camera& camera, double dt_s) {
@@ -146,22 +146,22 @@ FrameCounts FrameDrawer::draw(const gl::Target& target, const DrawOptions& look)
     return counts_;
 }
 
+void FrameDrawer::take_note(MeshStream& stream, size_t mesh) const {
+    for (size_t i = 0; i < refinements_.size(); ++i)
+        stream.take_note(mesh, *refinements_[i], cameras_[i], options_.settings, reports_[i].missing_px);
+}
+
 std::vector<glm::dvec3> FrameDrawer::drawn_corners_m() const {
     std::vector<glm::dvec3> corners;
-    auto place_of = [&](uint32_t vertex) {
-        if (vertex < mesh_.vertex_count()) return mesh_.vertex_m(vertex);
-        const GlideVertex& glide = refinements_.front()->glide_vertices()[vertex - mesh_.vertex_count()];
-        if (!glide.glides()) return mesh_.vertex_m(glide.to());
-        return glm::mix(mesh_.vertex_m(glide.from[0]), mesh_.vertex_m(glide.to()), double(glide.share));
-    };
-    auto add = [&](uint32_t vertex) { corners.push_back(mesh_.origin_m() + place_of(vertex)); };
+    auto add_own = [&](uint32_t index) { corners.push_back(refinements_.front()->place_m(index)); };
+    auto add = [&](uint32_t vertex) { corners.push_back(mesh_.origin_m() + mesh_.vertex_m(vertex)); };
     for (const std::vector<uint32_t>& indices : paper_faces_) std::for_each(indices.begin(), indices.end(), add);
     if (refinements_.empty()) return corners;
     const FaceSlots& faces = refinements_.front()->faces();
     for (uint32_t surface = 0; surface < faces.surface_count(); ++surface) {
         for (uint32_t page = 0; page < faces.pages(surface).size(); ++page) {
             const FacePage& one = *faces.pages(surface)[page];
-            std::for_each(one.indices.begin(), one.indices.begin() + 3 * faces.page_count(surface, page), add);
+            std::for_each(one.indices.begin(), one.indices.begin() + 3 * faces.page_count(surface, page), add_own);
         }
     }
     return corners;

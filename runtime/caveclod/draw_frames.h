@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/caveclod/draw.h"
+#include "runtime/caveclod/mesh_stream.h"
 #include "runtime/caveclod/paper.h"
 #include "runtime/caveclod/refine.h"
 #include "runtime/caveclod/settings.h"
@@ -22,6 +23,7 @@ struct FrameCounts {
     uint64_t wrong_corner_count = 0;  // drawn with another face's attributes, for the paper's array holds no others
     uint64_t camera_bytes = 0;        // what the cameras keep in memory
     double error_px = 0;              // the greatest bound of what the drawn camera has left unsplit in view
+    double missing_px = 0;            // of that, what is not there (MeshStream)
     bool is_settled = true;
 };
 
@@ -45,6 +47,8 @@ class FrameDrawer {
 
     // The drawn camera's, of Variant::own and Variant::shared; null of the paper's.
     const Refinement* refinement() const { return refinements_.empty() ? nullptr : refinements_.front().get(); }
+    // Takes note of all cameras, as they were decided last, of Variant::own.
+    void take_note(MeshStream& stream, size_t mesh) const;
     // What is drawn: mesh positions in the world, three a triangle, those on their way where they are.
     std::vector<glm::dvec3> drawn_corners_m() const;
 

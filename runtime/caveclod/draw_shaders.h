@@ -3,12 +3,12 @@
 
 namespace overlook::caveclod::shaders {
 
-// A vertex is one of the mesh, or from vertex_count on one on its way between two of them.
+// A vertex is one of the mesh, or from glide_begin on one on its way between two of them.
 inline constexpr char kMeshVertexInputs[] = R"(#version 450 core
 layout(binding = 1) uniform usamplerBuffer vertices;  // four words: position, high and low; normal; uv
 layout(binding = 2) uniform usamplerBuffer glides;    // two texels each: to and whether it glides, the bits of the share, weights; from
 layout(binding = 3) uniform usamplerBuffer colours;   // red in the lowest byte
-uniform uint vertex_count;
+uniform uint glide_begin;
 uniform uint low_bits;
 uniform bool has_colours;
 uniform ivec3 camera_steps;                   // whole steps of the camera's place, and what is left of it
@@ -61,10 +61,10 @@ Vertex vertex_at(uint id) {
 void main() {
     uint id = uint(gl_VertexID);
     Vertex vertex;
-    if (id < vertex_count) {
+    if (id < glide_begin) {
         vertex = vertex_at(id);
     } else {
-        int at = 2 * int(id - vertex_count);
+        int at = 2 * int(id - glide_begin);
         uvec3 glide = texelFetch(glides, at).xyz, from = texelFetch(glides, at + 1).xyz;
         bool glides_there = (glide.x & 0x80000000u) != 0u;
         float share = uintBitsToFloat(glide.y);

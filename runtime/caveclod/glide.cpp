@@ -36,7 +36,7 @@ void Refinement::find_sources(bool glides) {
         uint32_t face = move.corner / kCorners, corner = move.corner % kCorners;
         std::array<uint32_t, 3> from = {move.vertex_before, faces_.index_at(face * kCorners + (corner + 1) % 3),
                                         faces_.index_at(face * kCorners + (corner + 2) % 3)};
-        if (std::max(from[1], from[2]) >= mesh_.vertex_count()) continue;  // on its way itself
+        if (std::max(from[1], from[2]) >= mesh_.glide_begin()) continue;  // on its way itself
         glm::dvec3 to_m = mesh_.vertex_m(move.vertex), a = mesh_.vertex_m(from[0]);
         glm::dvec3 ab = mesh_.vertex_m(from[1]) - a, ac = mesh_.vertex_m(from[2]) - a, normal = glm::cross(ab, ac);
         double area = glm::dot(normal, normal);
@@ -65,7 +65,7 @@ void Refinement::start_glide(uint32_t split, bool is_collapsing, float share) {
     auto on_its_way = [&](uint32_t to) {
         size_t i = 0;
         while (sources_[i].to() != to) ++i;
-        return mesh_.vertex_count() + glide.slots[i];
+        return mesh_.glide_begin() + glide.slots[i];
     };
     for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, on_its_way(move.vertex));
     for (uint32_t k = 0; k < record_.face_count; ++k) {

@@ -1,5 +1,7 @@
 #include "runtime/caveclod/mesh.h"
 
+#include <algorithm>
+
 #include "runtime/caveclod/mesh_record.h"
 
 namespace overlook::caveclod {
@@ -27,7 +29,10 @@ void Mesh::decode(uint32_t split, SplitRecord& record) const {
     uint32_t last = split;
     for (uint32_t count = get(at); count > 0; --count) record.needs.push_back(last -= get(at));
     last = split;
-    for (uint32_t count = get(at); count > 0; --count) record.dependents.push_back(last += get(at));
+    for (uint32_t count = get(at); count > 0; --count) {
+        last += get(at);
+        if (last < split_count()) record.dependents.push_back(last);  // else it is not there any more
+    }
 
     uint32_t created = base_position_count_ + split, owner = created - get(at);
     uint32_t owner_vertex = vertex_begin(owner), new_vertex = vertex_begin(created);
@@ -51,6 +56,30 @@ void Mesh::decode(uint32_t split, SplitRecord& record) const {
         if ((head & kHasFaceWedges) != 0)
             for (uint32_t& vertex : added.vertices) vertex += get(at);
     }
+}
+
+void Mesh::grow(Mesh&& finer) {
+    std::vector<Surface> surfaces = std::move(surfaces_);
+    *this = std::move(finer);
+    surfaces_ = std::move(surfaces);
+}
+
+void Mesh::shrink(const Extent& extent, float missing_error_m) {
+    auto [split_count, face_count, vertex_count] = extent;
+    auto cut = [](auto& vector, size_t size) {
+        if (vector.size() <= size) return;
+        vector.resize(size);
+        vector.shrink_to_fit();
+    };
+    if (split_count < record_begin_.size()) cut(records_, record_begin_[split_count]);
+    size_t position_count = size_t(base_position_count_) + split_count;
+    cut(bounds_, split_count), cut(record_begin_, split_count), cut(glides_, (split_count + 63) / 64);
+    cut(vertex_blocks_, (position_count + kRowBlock - 1) / kRowBlock);
+    cut(vertex_rows_, position_count), cut(wide_rows_, position_count);
+    cut(vertices_, vertex_count), cut(colours_, vertex_count);
+    cut(roots_, size_t(std::lower_bound(roots_.begin(), roots_.end(), split_count) - roots_.begin()));
+    split_limit_ = split_count, face_count_ = face_count;
+    missing_error_m_ = missing_error_m, finest_error_m_ = std::max(finest_error_m_, missing_error_m);
 }
 
 glm::dvec3 Mesh::vertex_m(uint32_t vertex) const {

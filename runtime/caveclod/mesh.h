@@ -45,13 +45,40 @@ struct SplitRecord {
     uint32_t face_count = 0;
 };
 
+// Of a mesh of which a part is there: what is known of the whole.
+struct WholeMesh {
+    uint32_t face_count = 0, vertex_count = 0;
+    // No split that is missing bounds more; 0: none is missing.
+    float missing_error_m = 0;
+};
+
 class Mesh {
   public:
     // The hierarchy may go afterwards. Fails with Exit::impossible if its splits do not fit into 32-bit places ("a mesh of
     // 200,000,000 splits needs more than 4 GiB of records"), or if it has too many faces of one surface and too many surfaces for
     // 32-bit handles: "a mesh of 70,000 surfaces and 200,000 faces of one has too many for one camera's handles".
     static Result<Mesh> make(const Hierarchy& hierarchy);
+    // The same of a hierarchy's first splits. Of all of them it is the mesh that the other one makes, but that handles have room
+    // for whole.face_count faces of one surface.
+    static Result<Mesh> make(const Hierarchy& hierarchy, const WholeMesh& whole);
 
+    // Becomes the mesh of more splits of the same hierarchy, with the surfaces that it has itself. Cost O(1).
+    void grow(Mesh&& finer);
+    // Keeps the first splits alone, with the bounds and records that they have. extent: as it was of them; missing_error_m: as
+    // WholeMesh's. Cost O(what is left).
+    struct Extent {
+        uint32_t split_count = 0, face_count = 0, vertex_count = 0;
+    };
+    Extent extent() const { return {split_count(), face_count(), vertex_count()}; }
+    void shrink(const Extent& extent, float missing_error_m);
+    // Splits from here on are on their way out: refinements collapse them and split none. split_count() if none is.
+    void set_split_limit(uint32_t split_limit) { split_limit_ = split_limit; }
+    void set_surfaces(std::vector<Surface> surfaces) { surfaces_ = std::move(surfaces); }  // as many as there are
+
+    uint32_t split_limit() const { return split_limit_; }
+    float missing_error_m() const { return missing_error_m_; }
+    // Above all vertices, those that are missing as well: a face's index from here on is of a vertex on its way.
+    uint32_t glide_begin() const { return glide_begin_; }
     uint32_t split_count() const { return uint32_t(bounds_.size()); }
     uint32_t face_count() const { return face_count_; }
     uint32_t base_face_count() const { return uint32_t(base_surfaces_.size()); }
@@ -110,8 +137,8 @@ class Mesh {
 
     static constexpr uint32_t kRowBlock = 64;
 
-    uint32_t face_count_ = 0, base_position_count_ = 0, slot_bits_ = 32;
-    float finest_error_m_ = 0;
+    uint32_t face_count_ = 0, base_position_count_ = 0, slot_bits_ = 32, split_limit_ = 0, glide_begin_ = 0;
+    float finest_error_m_ = 0, missing_error_m_ = 0;
     glm::dvec3 origin_m_{0}, lowest_m_{0}, highest_m_{0};
     double position_step_m_ = 1;
     Grid grid_;

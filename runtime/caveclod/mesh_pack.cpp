@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "formats/caveclod_codes.h"
 #include "formats/caveclod_octahedral.h"
@@ -49,8 +50,13 @@ class MeshPacker {
   public:
     explicit MeshPacker(const Hierarchy& hierarchy) : h_(hierarchy) {}
 
-    Result<Mesh> run() {
-        if (Result<void> fits = choose_handles(); !fits) return tl::unexpected(fits.error());
+    // whole: of which the hierarchy is a part.
+    Result<Mesh> run(const std::optional<WholeMesh>& whole) {
+        if (Result<void> fits = choose_handles(whole ? whole->face_count : most_faces()); !fits)
+            return tl::unexpected(fits.error());
+        mesh_.split_limit_ = h_.split_count();
+        mesh_.glide_begin_ = whole ? whole->vertex_count : uint32_t(h_.vertices.size());
+        mesh_.missing_error_m_ = whole ? whole->missing_error_m : 0;
         mesh_.base_position_count_ = h_.base_position_count;
         mesh_.face_count_ = uint32_t(h_.face_positions.size());
         mesh_.finest_error_m_ = h_.finest_error_m;
@@ -74,14 +80,18 @@ class MeshPacker {
     }
 
   private:
-    Result<void> choose_handles() {
+    // Of one surface.
+    uint32_t most_faces() const {
         std::vector<uint32_t> counts(h_.surfaces.size(), 0);
         for (uint32_t group : h_.face_group) ++counts[h_.group_surface[group]];
-        uint32_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
-        uint32_t surface_bits = uint32_t(std::bit_width(uint32_t(counts.size()))), slot_bits = uint32_t(std::bit_width(most));
+        return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+    }
+
+    Result<void> choose_handles(uint32_t most) {
+        size_t surfaces = h_.surfaces.size();
+        uint32_t surface_bits = uint32_t(std::bit_width(surfaces)), slot_bits = uint32_t(std::bit_width(most));
         if (surface_bits + slot_bits > 32)
-            return impossible("a mesh of {} surfaces and {} faces of one has too many for one camera's handles", counts.size(),
-                              most);
+            return impossible("a mesh of {} surfaces and {} faces of one has too many for one camera's handles", surfaces, most);
         mesh_.slot_bits_ = 32 - surface_bits;
         return {};
     }
@@ -269,7 +279,11 @@ class MeshPacker {
 };
 
 Result<Mesh> Mesh::make(const Hierarchy& hierarchy) {
-    return MeshPacker(hierarchy).run();
+    return MeshPacker(hierarchy).run(std::nullopt);
+}
+
+Result<Mesh> Mesh::make(const Hierarchy& hierarchy, const WholeMesh& whole) {
+    return MeshPacker(hierarchy).run(whole);
 }
 
 }  // namespace overlook::caveclod

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <functional>
+#include <utility>
 
 #include "formats/parallel.h"
 #include "runtime/caveclod/refine_frame.h"
@@ -11,7 +13,8 @@
 namespace overlook::caveclod {
 
 Refinement::Refinement(const Mesh& mesh) : mesh_(mesh), faces_(mesh.surface_count(), mesh.slot_bits()) {
-    for (Bits* bits : {&applied_, &open_, &gliding_}) bits->assign((mesh.split_count() + 63) / 64, 0);
+    split_count_ = mesh.split_count();
+    for (Bits* bits : {&applied_, &open_, &gliding_}) bits->assign((split_count_ + 63) / 64, 0);
     for (uint32_t face = 0; face < mesh.base_face_count(); ++face)
         faces_.add(mesh.base_surface(face), face, mesh.base_faces()[face]);
     for (uint32_t root : mesh.roots()) open(root);
@@ -20,6 +23,7 @@ Refinement::Refinement(const Mesh& mesh) : mesh_(mesh), faces_(mesh.surface_coun
 void Refinement::evaluate(Frame& frame, uint32_t split) {
     ++frame.report.evaluated_count;
     auto answer = frame.test(split);
+    if (split >= mesh_.split_limit()) answer.must_split = answer.wants_split = false, answer.wants_collapse = true;
     if (has(applied_, split)) {
         if (has(gliding_, split)) {
             Glide& glide = glides_.at(split);
@@ -58,8 +62,9 @@ void Refinement::evaluate_all(Frame& frame) {
                 known_px = frame.report.error_px;
                 reach = test.reach_of(std::min(known_px, test.least_split_px()));
             }
-            bool stays = has(applied_, split) ? !frame.keeps_reserve && !has(gliding_, split) && test.is_kept(split)
-                                              : test.is_within(split, reach);
+            bool stays = has(applied_, split)
+                             ? !frame.keeps_reserve && !has(gliding_, split) && split < mesh_.split_limit() && test.is_kept(split)
+                             : test.is_within(split, reach);
             if (stays)
                 ++frame.report.evaluated_count;
             else
@@ -198,6 +203,7 @@ void Refinement::operate(Frame& frame) {
 
 FrameReport Refinement::refine(const view::Camera& camera, const Settings& settings, double dt_s,
                                const view::FinerParts* finer) {
+    if (split_count_ != mesh_.split_count()) follow_mesh();
     ScreenTest test(mesh_, camera, settings, finer);
     Frame frame{test, settings, {}, false, settings.most_operations > 0 ? settings.most_operations : ~uint64_t(0)};
     frame.keeps_reserve = settings.most_triangles > 0 && faces_.face_count() * 8 > settings.most_triangles * 7;
@@ -207,7 +213,60 @@ FrameReport Refinement::refine(const view::Camera& camera, const Settings& setti
     operate(frame);
     frame.report.triangle_count = faces_.face_count();
     frame.report.gliding_count = uint32_t(glides_.size());
+    if (mesh_.missing_error_m() > 0) {
+        frame.report.missing_px = displaced_px(camera, settings, mesh_.missing_error_m(), settings.error_px);
+        frame.report.error_px = std::max(frame.report.error_px, frame.report.missing_px);
+    }
     return frame.report;
+}
+
+// Splits have come, whose needs may be applied already, or gone. What glides goes on, where it may still.
+void Refinement::follow_mesh() {
+    uint32_t before = std::exchange(split_count_, mesh_.split_count());
+    assert(split_end() <= split_count_);
+    for (Bits* bits : {&applied_, &open_, &gliding_}) bits->resize((split_count_ + 63) / 64, 0);
+    if (split_count_ < before && split_count_ % 64 != 0) open_.back() &= (uint64_t(1) << (split_count_ % 64)) - 1;
+    for (uint32_t split = before; split < split_count_; ++split) {
+        mesh_.decode_needs(split, needs_);
+        if (std::all_of(needs_.begin(), needs_.end(), [&](uint32_t need) { return has(applied_, need); })) open(split);
+    }
+    std::vector<uint32_t> ended;
+    for (const auto& [split, glide] : glides_)
+        if (glide.moves && !mesh_.glides(split)) ended.push_back(split);
+    std::sort(ended.begin(), ended.end());
+    for (uint32_t split : ended) finish_glide(split);
+}
+
+uint32_t Refinement::split_end() const {
+    for (size_t word = applied_.size(); word-- > 0;)
+        if (applied_[word] != 0) return uint32_t(64 * word) + uint32_t(std::bit_width(applied_[word]));
+    return 0;
+}
+
+glm::dvec3 Refinement::place_m(uint32_t index) const {
+    if (index < mesh_.glide_begin()) return mesh_.origin_m() + mesh_.vertex_m(index);
+    const GlideVertex& glide = glide_vertices_[index - mesh_.glide_begin()];
+    glm::dvec3 to_m = mesh_.vertex_m(glide.to());
+    return mesh_.origin_m() + (glide.glides() ? glm::mix(mesh_.vertex_m(glide.from[0]), to_m, double(glide.share)) : to_m);
+}
+
+double Refinement::displaced_px(const view::Camera& camera, const Settings& settings, double error_m, double enough_px) const {
+    ScreenTest test(mesh_, camera, settings);
+    glm::dvec3 middle_m = (mesh_.lowest_m() + mesh_.highest_m()) / 2.0;
+    double all_px = test.seen_px(middle_m, glm::distance(middle_m, mesh_.highest_m()), error_m), greatest_px = 0;
+    if (all_px <= enough_px) return all_px;
+    for (uint32_t surface = 0; surface < faces_.surface_count(); ++surface) {
+        for (uint32_t p = 0; p < faces_.pages(surface).size(); ++p) {
+            const FacePage& page = *faces_.pages(surface)[p];
+            for (uint32_t k = 0; k < 3 * faces_.page_count(surface, p); k += 3) {
+                glm::dvec3 a = place_m(page.indices[k]), b = place_m(page.indices[k + 1]), c = place_m(page.indices[k + 2]);
+                middle_m = (a + b + c) / 3.0;
+                double radius_m = std::max({glm::distance(a, middle_m), glm::distance(b, middle_m), glm::distance(c, middle_m)});
+                greatest_px = std::max(greatest_px, test.seen_px(middle_m, radius_m, error_m));
+            }
+        }
+    }
+    return greatest_px;
 }
 
 Refinement::Bytes Refinement::bytes() const {

@@ -39,8 +39,9 @@ struct GlideVertex {
 static_assert(sizeof(GlideVertex) == 24);
 
 // One camera's refinement of one mesh, which must outlive it. Any number of them may refine one mesh at once, each in one thread.
+// Between two frames the mesh may grow, and shrink to no less than split_end().
 //
-// An index of a face is a vertex of the mesh, or mesh.vertex_count() + the place in glide_vertices().
+// An index of a face is a vertex of the mesh, or mesh.glide_begin() + the place in glide_vertices().
 //
 // Why gliding keeps the promise: a split glides only if its new position is on one side of all the faces it moves, their normals
 // and those of all that they stand for lie within a half-space about one direction, and the star goes round once. Then both forms
@@ -71,6 +72,13 @@ class Refinement {
     void clear_dirty() { faces_.clear_dirty(); }
 
     bool is_applied(uint32_t split) const { return has(applied_, split); }
+    // Above all splits that are applied or on their way.
+    uint32_t split_end() const;
+    // Where an index is drawn now, in the world.
+    glm::dvec3 place_m(uint32_t index) const;
+    // Bounds the displacement in pixels of all drawn in view, as the camera of the last frame saw it, by what lies within error_m
+    // of it: without looking at faces where that is at most enough_px. Cost O(faces) at most.
+    double displaced_px(const view::Camera& camera, const Settings& settings, double error_m, double enough_px) const;
     const Mesh& mesh() const { return mesh_; }
 
     struct Bytes {
@@ -105,6 +113,7 @@ class Refinement {
 
     struct Frame;  // what one call of refine() works with
 
+    void follow_mesh();
     void open(uint32_t split) { put(open_, split, true); }
     void close(uint32_t split) { put(open_, split, false); }
     void evaluate(Frame& frame, uint32_t split);
@@ -125,6 +134,7 @@ class Refinement {
     uint32_t take_glide_slot(const GlideVertex& vertex);
 
     const Mesh& mesh_;
+    uint32_t split_count_ = 0;  // the mesh's when it was looked at last
     // Of splits: applied; could be applied or undone now; on its way.
     Bits applied_, open_, gliding_;
     FaceSlots faces_;

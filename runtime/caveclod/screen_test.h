@@ -85,6 +85,12 @@ class ScreenTest {
         return answer;
     }
 
+    // How far what lies in a sphere of the world is displaced by what lies within error_m of it; 0 out of view.
+    double seen_px(const glm::dvec3& middle_m, double radius_m, double error_m) const {
+        view::SphereErrorBound::Place place = bound_.place_of(middle_m - eye_m_);
+        return narrow_.holds(place, radius_m + error_m) ? bound_(place, radius_m, error_m) : 0;
+    }
+
     // Without root or division, for the many that change nothing.
     //
     // With d the distance of a sphere's middle, the least depth is at least (d - r) / secant and the widest secant at most the

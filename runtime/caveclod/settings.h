@@ -62,6 +62,7 @@ struct FrameReport {
     uint32_t gliding_count = 0;    // on their way after this frame
     uint64_t triangle_count = 0;
     double error_px = 0;     // the greatest bound of what is left unsplit in view
+    double missing_px = 0;   // the same of what the mesh has not there (Mesh::missing_error_m); in error_px too
     bool is_settled = true;  // no budget has left anything to do
 };
 

@@ -17,8 +17,9 @@ namespace overlook::player {
 struct StreamRecord {
     stream::Counts counts;
     uint64_t budget_bytes = 0;
-    uint64_t stopped_count = 0;  // triangles coarser than asked, because what is finer is not there
-    std::vector<Error> faults;   // of blocks that cannot be read, each once
+    uint64_t stopped_count = 0;  // of a terrain: triangles coarser than asked, because what is finer is not there
+    uint32_t block_count = 0, resident_block_count = 0;  // of a mesh; what it lacks is FrameCounts::missing_px
+    std::vector<Error> faults;                           // of blocks that cannot be read, each once
 };
 
 // What one frame was and what it cost.

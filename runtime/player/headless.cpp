@@ -38,6 +38,9 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
                                                 {*plan.method, scene.subject().thing(), controller.error_px(), plan.options.morph, false, plan.draw,
                                                  plan.flight.step_s, plan.options.triangles});
         if (!record) return tl::unexpected(record.error());
+        if (record->stream) {
+            for (const Error& fault : record->stream->faults) command::note(common, "player: " + fault.message);
+        }
         records.push_back(*record);
         controller.frame_done(cost_of(plan.options, records.back()));
         if (Result<void> written = write_picture(plan, *target, frame, frame + 1 == frame_count); !written) return written;

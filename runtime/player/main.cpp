@@ -1,6 +1,7 @@
 // player: draws a scene or a baked terrain, in a window or into pictures.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "runtime/command/command.h"
 #include "runtime/player/headless.h"
@@ -11,21 +12,22 @@
 namespace overlook::player {
 namespace {
 
-// What is streamed, if anything: without a window every picture waits for it.
-std::optional<stream::Settings> stream_settings(const Options& options, bool has_window) {
+// What is streamed, if anything: without a window every picture waits for it, unless it is asked for otherwise.
+std::optional<Streaming> streaming_of(const Options& options, bool has_window) {
     if (options.stream_memory_bytes == 0) return std::nullopt;
-    stream::Settings settings;
-    settings.residency_budget_bytes = options.stream_memory_bytes;
-    settings.upload_budget_bytes = options.upload_budget_bytes;
-    if (!has_window) settings.latency_frames = 1;
-    return settings;
+    Streaming streaming;
+    streaming.settings.residency_budget_bytes = options.stream_memory_bytes;
+    streaming.settings.upload_budget_bytes = options.upload_budget_bytes;
+    streaming.waits = !has_window && options.stream_latency == 0;
+    if (!has_window) streaming.settings.latency_frames = std::max(1u, options.stream_latency);
+    return streaming;
 }
 
 int play(const Options& options, const command::Common& common) {
     Result<Plan> plan = plan_from(options);
     if (!plan) return command::fail("player", plan.error());
     bool has_window = !options.headless && (options.image.empty() || has_display());
-    Result<Scene> scene = Scene::read(options.file, stream_settings(options, has_window));
+    Result<Scene> scene = Scene::read(options.file, streaming_of(options, has_window));
     if (!scene) return command::fail("player", scene.error());
 
     Method method = plan->method.value_or(scene->method());

@@ -13,6 +13,7 @@ constexpr uint32_t kMostPixelsASide = 32768;
 constexpr double kMostError_px = 10000;
 constexpr double kFarthest_m = 1e9;
 constexpr uint32_t kMostFrames = 10'000'000;
+constexpr uint32_t kMostLatency_frames = 1000;
 
 bool parse_side(std::string_view text, uint32_t& side_px) {
     auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), side_px);
@@ -38,6 +39,12 @@ Result<void> check_numbers(const Options& options) {
     if (options.frames > kMostFrames) return bad_command("--frames {}: at most {} are wanted", options.frames, kMostFrames);
     if (options.sets_upload_budget && options.stream_memory_bytes == 0) {
         return bad_command("--upload-budget: is of what is streamed; give --stream-memory as well");
+    }
+    if (options.stream_latency > 0 && options.stream_memory_bytes == 0) {
+        return bad_command("--stream-latency: is of what is streamed; give --stream-memory as well");
+    }
+    if (options.stream_latency > kMostLatency_frames) {
+        return bad_command("--stream-latency {}: at most {} frames are wanted", options.stream_latency, kMostLatency_frames);
     }
     if (!options.flight.empty() && !options.cameras.empty()) return bad_command("--flight and --camera exclude each other");
     if (options.wireframe && options.split_picture) {
@@ -70,18 +77,20 @@ Result<void> check_fit(const Options& options, Method method, Thing thing) {
     struct Rule {
         const char* name;
         bool is_given, is_taken;
+        const char* takers = "terrain does";
     };
     bool is_terrain = method == Method::terrain, is_triangles = has_wireframe(method);
-    const Rule kRules[] = {{"--triangles", options.triangles > 0, takes_budgets(method)},
-                           {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
-                           {"--morph", options.sets_morph, is_terrain},
-                           {"--stream-memory", options.stream_memory_bytes > 0, is_terrain},
-                           {"--wireframe", options.wireframe, is_triangles},
-                           {"--split-picture", options.split_picture, is_terrain},
-                           {"--haze", options.sets_haze, thing == Thing::terrain}};
+    const Rule kRules[] = {
+        {"--triangles", options.triangles > 0, takes_budgets(method)},
+        {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
+        {"--morph", options.sets_morph, is_terrain},
+        {"--stream-memory", options.stream_memory_bytes > 0, is_terrain || method == Method::caveclod, "terrain and caveclod do"},
+        {"--wireframe", options.wireframe, is_triangles},
+        {"--split-picture", options.split_picture, is_terrain},
+        {"--haze", options.sets_haze, thing == Thing::terrain}};
     for (const Rule& rule : kRules) {
         if (rule.is_given && !rule.is_taken)
-            return bad_command("{}: {} does not take it; --method terrain does", rule.name, name_of(method));
+            return bad_command("{}: {} does not take it; --method {}", rule.name, name_of(method), rule.takers);
     }
     return {};
 }
@@ -149,11 +158,15 @@ void add_options(CLI::App& app, Options& options) {
                    "Samples a pixel: 1 (fast), 2, 4 or 8 (smooth); default 4, or 1 in a window drawn by software");
     command::add_bytes_option(
         app, "--stream-memory", options.stream_memory_bytes,
-        "Keep at most so much of the terrain in memory and read the rest as it is needed: bytes, or with K, M, "
-        "G; of a file baked with --streamed. Where it is too little the picture is coarser, and says so");
+        "Keep at most so much of the terrain or mesh in memory and read the rest as it is needed: bytes, or with K, M, "
+        "G; of a mesh, or a terrain baked with --streamed. Where it is too little the picture is coarser, and says so");
     command::add_bytes_option(app, "--upload-budget", options.upload_budget_bytes,
                               "Of what is streamed, take over at most so much in a frame; default 16M")
         ->each([&options](const std::string&) { options.sets_upload_budget = true; });
+    app.add_option("--stream-latency", options.stream_latency,
+                   "Without a window: what is streamed comes so many frames after it is asked for, and no picture waits; "
+                   "default: every picture waits for all that memory has room for")
+        ->type_name("FRAMES");
     app.add_option("--report", options.report, "Write counts, times and predicted errors of every frame")->type_name("FILE.json");
 }
 

@@ -35,8 +35,9 @@ struct Options {
     bool split_picture = false;
     double haze = 1;
     bool sets_error_px = false, sets_haze = false, sets_morph = false;  // on the command line, which goes before the scene
-    uint64_t stream_memory_bytes = 0;                                   // of a terrain in parts; 0 = read whole
+    uint64_t stream_memory_bytes = 0;                                   // of what is read in parts; 0 = read whole
     uint64_t upload_budget_bytes = 16u << 20;                           // of what is streamed, a frame
+    uint32_t stream_latency = 0;                                        // in frames, without a window; 0 = pictures wait
     bool sets_upload_budget = false;
     uint32_t samples = 0;  // a pixel; 0 = settled by choose_samples
 };

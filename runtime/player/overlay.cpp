@@ -26,9 +26,12 @@ void method_lines(const OverlayText& text) {
     }
     if (text.frame->stream) {
         const StreamRecord& stream = *text.frame->stream;
-        text_line(fmt::format("stream {} of {} there, {} tiles asked for, {} without room",
-                              megabytes(stream.counts.resident_bytes), megabytes(stream.budget_bytes), stream.counts.asked_count,
+        text_line(fmt::format("stream {} of {} there, {} {} asked for, {} without room", megabytes(stream.counts.resident_bytes),
+                              megabytes(stream.budget_bytes), stream.counts.asked_count, text.frame->mesh ? "blocks" : "tiles",
                               stream.counts.refused_count));
+        if (text.frame->mesh)
+            text_line(fmt::format("       {} of {} blocks; what is missing is {:.2f} px", stream.resident_block_count,
+                                  stream.block_count, text.frame->mesh->missing_px));
         if (stream.stopped_count > 0) text_line(fmt::format("       {} triangles coarser than asked", stream.stopped_count));
     }
     if (!text.frame->sprite) return;

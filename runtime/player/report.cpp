@@ -30,6 +30,24 @@ Json summary_of(const std::vector<double>& values) {
             {"max", percentile(values, 1.00)}};
 }
 
+void put_stream(const FrameRecord& frame, Json& json) {
+    const StreamRecord& stream = *frame.stream;
+    bool is_mesh = frame.mesh.has_value();
+    const char* what = is_mesh ? "blocks" : "tiles";
+    json["resident_bytes"] = stream.counts.resident_bytes;
+    json["streamed_bytes"] = stream.counts.uploaded_bytes;
+    json[fmt::format("asked_{}", what)] = stream.counts.asked_count;
+    json[fmt::format("refused_{}", what)] = stream.counts.refused_count;
+    json[fmt::format("dropped_{}", what)] = stream.counts.dropped_count;
+    if (is_mesh) {
+        json["blocks"] = stream.block_count;
+        json["resident_blocks"] = stream.resident_block_count;
+        json["missing_error_px"] = frame.mesh->missing_px;
+    } else {
+        json["stopped_triangles"] = stream.stopped_count;
+    }
+}
+
 Json frame_json(const FrameRecord& frame) {
     Json json = {{"triangles", frame.triangle_count},
                  {"void_rim_triangles", frame.void_rim_triangle_count},
@@ -47,14 +65,7 @@ Json frame_json(const FrameRecord& frame) {
         json["camera_bytes"] = frame.mesh->camera_bytes;
         json["settled"] = frame.mesh->is_settled;
     }
-    if (frame.stream) {
-        json["resident_bytes"] = frame.stream->counts.resident_bytes;
-        json["streamed_bytes"] = frame.stream->counts.uploaded_bytes;
-        json["asked_tiles"] = frame.stream->counts.asked_count;
-        json["refused_tiles"] = frame.stream->counts.refused_count;
-        json["dropped_tiles"] = frame.stream->counts.dropped_count;
-        json["stopped_triangles"] = frame.stream->stopped_count;
-    }
+    if (frame.stream) put_stream(frame, json);
     if (!frame.sprite) return json;
     const lod_sprite::FrameCounts& sprite = *frame.sprite;
     json["key_triangles"] = sprite.key_triangle_count;

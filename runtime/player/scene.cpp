@@ -21,7 +21,7 @@ Result<scene::Scene> read_described(const std::string& path) {
 
 // What is drawn, by the kind of its file, if that is what the method draws.
 Result<std::unique_ptr<Subject>> read_subject(const std::string& asset, const std::string& path, LayerMethod& layer,
-                                              bool is_method_said, const std::optional<stream::Settings>& streamed) {
+                                              bool is_method_said, const std::optional<Streaming>& streaming) {
     Result<container::Reader> file = container::Reader::open(asset);
     if (!file) return tl::unexpected(file.error());
     Thing thing = file->kind() == caveclod::kKind ? Thing::mesh : Thing::terrain;
@@ -34,13 +34,14 @@ Result<std::unique_ptr<Subject>> read_subject(const std::string& asset, const st
         return bad_input("{}: /layers/0/method: {} draws {}, and {} is a {}", path, name_of(layer.method),
                          thing == Thing::mesh ? "terrains" : "meshes", asset, name_of(thing));
     }
-    if (streamed && thing == Thing::terrain) return read_streamed_terrain(std::move(*file), *streamed);
+    if (streaming && thing == Thing::mesh) return read_streamed_mesh(std::move(*file), layer, *streaming);
+    if (streaming) return read_streamed_terrain(std::move(*file), *streaming);
     return thing == Thing::mesh ? read_mesh(*file, layer) : read_terrain(*file, layer);
 }
 
 }  // namespace
 
-Result<Scene> Scene::read(const std::string& path, const std::optional<stream::Settings>& streamed) {
+Result<Scene> Scene::read(const std::string& path, const std::optional<Streaming>& streaming) {
     Scene scene;
     std::string asset = path;
     if (path.ends_with(".json")) {
@@ -54,7 +55,7 @@ Result<Scene> Scene::read(const std::string& path, const std::optional<stream::S
     } else {
         scene.described_.layers.emplace_back();
     }
-    Result<std::unique_ptr<Subject>> subject = read_subject(asset, path, scene.layer_, path.ends_with(".json"), streamed);
+    Result<std::unique_ptr<Subject>> subject = read_subject(asset, path, scene.layer_, path.ends_with(".json"), streaming);
     if (!subject) return tl::unexpected(subject.error());
     scene.subject_ = std::move(*subject);
     return scene;

@@ -30,14 +30,14 @@ double cost_of(const Options& options, const FrameRecord& frame);
 
 class Scene {
   public:
-    // Reads a baked terrain or mesh, or (a name that ends in .json) a scene with one. streamed: a terrain is read in parts, as
-    // these say, and drawn by its triangles. Needs no OpenGL. Fails as
-    // scene::read_scene, layer_method_of, read_terrain and read_mesh, with Exit::impossible:
+    // Reads a baked terrain or mesh, or (a name that ends in .json) a scene with one. streaming: it is read in parts; a terrain
+    // is then drawn by its triangles, a mesh by caveclod. Needs no OpenGL. Fails as scene::read_scene, layer_method_of,
+    // read_terrain, read_mesh and the two that stream, with Exit::impossible:
     //   "a.json: /layers/1: the player draws one thing at a time; leave one layer"
     // and with Exit::bad_input:
     //   "a.json: /layers/0/method: caveclod draws meshes, and valley.ovl is a terrain"
     //   "a.ovl: a file of kind WLDI cannot be drawn; a baked terrain or mesh is wanted"
-    static Result<Scene> read(const std::string& path, const std::optional<stream::Settings>& streamed = std::nullopt);
+    static Result<Scene> read(const std::string& path, const std::optional<Streaming>& streaming = std::nullopt);
     // Puts it on the graphics card. Needs a current context; must be called once before draw(). second: how a context beside it
     // is made, for keys that are drawn by a thread.
     Result<void> upload(const gl::SecondContextMaker& second = gl::second_context) { return subject_->upload(second); }

@@ -36,8 +36,17 @@ class Subject : public Ground {
 // layer: its settings. Fail as terrain::read and caveclod::read, and with Exit::impossible as caveclod::Mesh::make.
 Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer);
 Result<std::unique_ptr<Subject>> read_mesh(const container::Reader& file, const LayerMethod& layer);
-// A terrain in parts, drawn by its triangles. With latency_frames every picture waits for what memory has room for, and a block
-// that cannot be read ends the drawing with its error. Fails as terrain::Tiles::open.
-Result<std::unique_ptr<Subject>> read_streamed_terrain(container::Reader file, const stream::Settings& settings);
+
+// How something is read in parts.
+struct Streaming {
+    stream::Settings settings;
+    // Every picture waits for what memory has room for, and a block that cannot be read ends the drawing with its error; needs
+    // latency_frames.
+    bool waits = false;
+};
+// A terrain in parts, drawn by its triangles, and a mesh in parts, by caveclod. Fail as terrain::Tiles::open and
+// caveclod::MeshStream::open.
+Result<std::unique_ptr<Subject>> read_streamed_terrain(container::Reader file, const Streaming& streaming);
+Result<std::unique_ptr<Subject>> read_streamed_mesh(container::Reader file, const LayerMethod& layer, const Streaming& streaming);
 
 }  // namespace overlook::player

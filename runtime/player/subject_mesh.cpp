@@ -1,33 +1,22 @@
 // A mesh in the player: refined by any of CAVECLOD's variants, by levels for the whole of it, or by LOD-sprite on it.
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <numbers>
 
 #include "formats/caveclod.h"
-#include "runtime/caveclod/draw_frames.h"
-#include "runtime/caveclod/static_levels.h"
 #include "runtime/caveclod/near_plane.h"
+#include "runtime/caveclod/static_levels.h"
 #include "runtime/gl/timer.h"
 #include "runtime/lod_sprite/draw_on_mesh.h"
 #include "runtime/player/draw_sprite.h"
-#include "runtime/player/subject.h"
+#include "runtime/player/mesh_room.h"
 
 namespace overlook::player {
 namespace {
 
-constexpr double kOverviewFov_deg = 42, kOverviewHeading_deg = -30, kOverviewPitch_deg = -20, kOverviewMargin = 1.1;
-constexpr double kNearShare = 1e-6;        // of the mesh's size; depths are reversed floats, so this costs no precision
-constexpr double kLeastSpeedShare = 0.05;  // of the mesh's size in a second
-
-class MeshSubject : public Subject {
+class MeshSubject : public MeshRoom {
   public:
     MeshSubject(caveclod::Hierarchy hierarchy, caveclod::Mesh mesh, const LayerMethod& layer)
-        : hierarchy_(std::move(hierarchy)), mesh_(std::move(mesh)), layer_(layer) {
-        middle_m_ = (mesh_.lowest_m() + mesh_.highest_m()) / 2.0;
-        radius_m_ = std::max(glm::distance(mesh_.lowest_m(), mesh_.highest_m()) / 2, 1e-6);
-    }
+        : hierarchy_(std::move(hierarchy)), mesh_(std::move(mesh)), layer_(layer) {}
 
     Result<void> upload(const gl::SecondContextMaker& second) override {
         second_context_ = second;
@@ -36,37 +25,6 @@ class MeshSubject : public Subject {
         drawing_.emplace(std::move(*drawing));
         return {};
     }
-
-    view::Camera overview(uint32_t width_px, uint32_t height_px) const override {
-        view::Camera camera;
-        camera.width_px = width_px, camera.height_px = height_px;
-        camera.fov_y_deg = kOverviewFov_deg, camera.heading_deg = kOverviewHeading_deg, camera.pitch_deg = kOverviewPitch_deg;
-        // As near as all corners of the box allow.
-        view::Axes axes = view::axes_of(camera);
-        double tangent_y = std::tan(camera.fov_y_deg * std::numbers::pi / 360), tangent_x = tangent_y * width_px / height_px;
-        double away_m = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-            glm::dvec3 at_m((corner & 1) != 0 ? mesh_.highest_m().x : mesh_.lowest_m().x,
-                            (corner & 2) != 0 ? mesh_.highest_m().y : mesh_.lowest_m().y,
-                            (corner & 4) != 0 ? mesh_.highest_m().z : mesh_.lowest_m().z);
-            at_m -= middle_m_;
-            double side_m =
-                std::max(std::abs(glm::dot(at_m, axes.right)) / tangent_x, std::abs(glm::dot(at_m, axes.up)) / tangent_y);
-            away_m = std::max(away_m, kOverviewMargin * side_m - glm::dot(at_m, axes.forward));
-        }
-        camera.position_m = middle_m_ - axes.forward * (away_m + kNearShare * radius_m_);
-        return camera;
-    }
-    Thing thing() const override { return Thing::mesh; }
-    double near_m() const override { return std::min(0.5, kNearShare * radius_m_); }
-
-    // Meshes are flown through and round; nothing of them is ground.
-    std::optional<double> height_m(double, double) const override { return std::nullopt; }
-    double distance_m(const glm::dvec3& place_m) const override {
-        return glm::distance(place_m, glm::clamp(place_m, mesh_.lowest_m(), mesh_.highest_m()));
-    }
-    double step_m() const override { return radius_m_ / 16; }
-    double least_speed_m_s() const override { return kLeastSpeedShare * radius_m_; }
 
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
         assert(drawing_.has_value());
@@ -97,23 +55,14 @@ class MeshSubject : public Subject {
         frames_->decide(camera, style.dt_s);
         record.refine_ms = refining.elapsed_ms();
         gl::Timer drawing;
-        caveclod::FrameCounts counts = frames_->draw(target, look_of(style));
+        caveclod::FrameCounts counts = frames_->draw(target, look_of(style, layer_));
         record.draw_ms = drawing.finished_ms();
-        record.triangle_count = counts.triangle_count;
-        record.tested_count = counts.evaluated_count;
-        record.uploaded_bytes = counts.uploaded_bytes;
-        record.predicted_error_px = counts.error_px;
-        record.mesh = counts;
+        take_counts(counts, record);
         return record;
     }
 
   private:
-    caveclod::DrawOptions look_of(const FrameStyle& style) const {
-        caveclod::DrawOptions look;
-        look.is_wireframe = style.look.look == terrain::Look::wireframe;
-        look.culls_back_faces = layer_.mesh.settings.culls_back_faces;
-        return look;
-    }
+    const caveclod::Mesh& mesh() const override { return mesh_; }
 
     // Whoever draws sprites on it, with this error.
     Result<void> ready_sprite(const FrameStyle& style) {
@@ -140,7 +89,7 @@ class MeshSubject : public Subject {
         size_t level = levels_->chosen(camera, style.error_px);
         record.refine_ms = choosing.elapsed_ms();
         gl::Timer drawing;
-        drawing_->draw(target, *level_buffers_[level], camera, look_of(style));
+        drawing_->draw(target, *level_buffers_[level], camera, look_of(style, layer_));
         record.draw_ms = drawing.finished_ms();
         record.triangle_count = level_buffers_[level]->triangle_count();
         record.tested_count = levels_->size();
@@ -150,8 +99,6 @@ class MeshSubject : public Subject {
     const caveclod::Hierarchy hierarchy_;  // for the paper's variant
     const caveclod::Mesh mesh_;
     LayerMethod layer_;
-    glm::dvec3 middle_m_{0};
-    double radius_m_ = 1;
     std::optional<caveclod::Drawing> drawing_;
     std::unique_ptr<caveclod::FrameDrawer> frames_;  // of the method of the frame before
     std::optional<caveclod::StaticLevels> levels_;   // once they were drawn with

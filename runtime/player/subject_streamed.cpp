@@ -16,8 +16,8 @@ namespace {
 
 class StreamedSubject : public Subject {
   public:
-    StreamedSubject(std::unique_ptr<terrain::Tiles> tiles, const stream::Settings& settings)
-        : tiles_(std::move(tiles)), refiner_(*tiles_), settings_(settings) {}
+    StreamedSubject(std::unique_ptr<terrain::Tiles> tiles, const Streaming& streaming)
+        : tiles_(std::move(tiles)), refiner_(*tiles_), streaming_(streaming) {}
 
     Result<void> upload(const gl::SecondContextMaker&) override {
         Result<terrain::Drawing> drawing = terrain::Drawing::make(*tiles_);
@@ -67,7 +67,7 @@ class StreamedSubject : public Subject {
         FrameRecord record;
         record.asked_error_px = style.error_px;
         StreamRecord& stream = record.stream.emplace();
-        bool waits = settings_.latency_frames.has_value();
+        bool waits = streaming_.waits;
         uint64_t streamed_bytes = 0;
         view::Camera local;
         gl::Timer refining;
@@ -86,7 +86,7 @@ class StreamedSubject : public Subject {
         draw_cut(*drawing_, target, cut_, local, style.look, record);
         stream.counts = tiles_->counts();
         stream.counts.uploaded_bytes = streamed_bytes;
-        stream.budget_bytes = settings_.residency_budget_bytes;
+        stream.budget_bytes = streaming_.settings.residency_budget_bytes;
         stream.stopped_count = cut_.stopped_count;
         return record;
     }
@@ -96,17 +96,17 @@ class StreamedSubject : public Subject {
 
     std::unique_ptr<terrain::Tiles> tiles_;
     terrain::TileRefiner refiner_;
-    stream::Settings settings_;
+    Streaming streaming_;
     std::optional<terrain::Drawing> drawing_;
     terrain::Cut cut_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Subject>> read_streamed_terrain(container::Reader file, const stream::Settings& settings) {
-    Result<std::unique_ptr<terrain::Tiles>> tiles = terrain::Tiles::open(std::move(file), settings);
+Result<std::unique_ptr<Subject>> read_streamed_terrain(container::Reader file, const Streaming& streaming) {
+    Result<std::unique_ptr<terrain::Tiles>> tiles = terrain::Tiles::open(std::move(file), streaming.settings);
     if (!tiles) return tl::unexpected(tiles.error());
-    return std::make_unique<StreamedSubject>(std::move(*tiles), settings);
+    return std::make_unique<StreamedSubject>(std::move(*tiles), streaming);
 }
 
 }  // namespace overlook::player

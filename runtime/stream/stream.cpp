@@ -18,12 +18,14 @@ constexpr uint64_t kFramesOnTheWay = 2;
 Result<std::unique_ptr<Stream>> Stream::open(std::string name, Source source, const Settings& settings) {
     assert(settings.worker_count >= 1 && settings.latency_frames.value_or(1) >= 1);
     for (uint32_t block = 0; block < source.block_count(); ++block) {
-        uint64_t bytes = source.decoded_bytes[block],
-                 least = std::min(settings.upload_budget_bytes, settings.residency_budget_bytes);
-        if (bytes <= least) continue;
-        bool is_upload = least == settings.upload_budget_bytes;
-        return impossible("{}: block {} takes {} bytes; {} budget of {} is too small for it", name, block, with_commas(bytes),
-                          is_upload ? "an upload" : "a residency", with_commas(least));
+        uint64_t bytes = source.decoded_bytes[block], upload = source.upload_bytes_of(block);
+        bool is_upload =
+            upload > settings.upload_budget_bytes &&
+            (bytes <= settings.residency_budget_bytes || settings.upload_budget_bytes <= settings.residency_budget_bytes);
+        if (!is_upload && bytes <= settings.residency_budget_bytes) continue;
+        return impossible("{}: block {} takes {} bytes; {} budget of {} is too small for it", name, block,
+                          with_commas(is_upload ? upload : bytes), is_upload ? "an upload" : "a residency",
+                          with_commas(is_upload ? settings.upload_budget_bytes : settings.residency_budget_bytes));
     }
     return std::unique_ptr<Stream>(new Stream(std::move(name), std::move(source), settings));
 }
@@ -51,6 +53,7 @@ Result<void> Stream::keep(std::span<const uint32_t> blocks) {
         Result<Bytes> decoded = Workers::decode(source_, order);
         if (!decoded) return tl::unexpected(decoded.error());
         slots_[block].bytes = std::move(*decoded);
+        slots_[block].held_bytes = source_.decoded_bytes[block];
         counts_.resident_bytes += source_.decoded_bytes[block];
     }
     return {};
@@ -60,6 +63,7 @@ void Stream::take_over(uint32_t block, Result<Bytes> decoded) {
     Slot& slot = slots_[block];
     slot.is_on_the_way = false;
     counts_.on_the_way_bytes -= source_.decoded_bytes[block];
+    uploads_on_the_way_bytes_ -= source_.upload_bytes_of(block);
     if (!decoded) {
         slot.has_failed = true;
         ++counts_.failed_count;
@@ -67,9 +71,10 @@ void Stream::take_over(uint32_t block, Result<Bytes> decoded) {
         return;
     }
     slot.bytes = std::move(*decoded);
+    slot.held_bytes = source_.decoded_bytes[block];
     slot.used_frame = frame_ - 1;  // as what it needs
-    counts_.resident_bytes += slot.bytes.size();
-    counts_.uploaded_bytes += slot.bytes.size();
+    counts_.resident_bytes += slot.held_bytes;
+    counts_.uploaded_bytes += source_.upload_bytes_of(block);
     ++counts_.arrived_count;
     changes_.arrived.push_back(block);
 }
@@ -78,7 +83,7 @@ void Stream::take_over(uint32_t block, Result<Bytes> decoded) {
 void Stream::take_due() {
     while (!on_the_way_.empty() && on_the_way_.front().due_frame <= frame_) {
         uint32_t block = on_the_way_.front().block;
-        if (counts_.uploaded_bytes + source_.decoded_bytes[block] > settings_.upload_budget_bytes) return;
+        if (counts_.uploaded_bytes + source_.upload_bytes_of(block) > settings_.upload_budget_bytes) return;
         on_the_way_.pop_front();
         take_over(block, workers_->wait_for(block));
     }
@@ -87,7 +92,7 @@ void Stream::take_due() {
 void Stream::take_finished() {
     // A block is taken only if the greatest would still fit: which one is next, nobody knows before.
     uint64_t greatest = 0;
-    for (const Order& order : on_the_way_) greatest = std::max(greatest, source_.decoded_bytes[order.block]);
+    for (const Order& order : on_the_way_) greatest = std::max(greatest, source_.upload_bytes_of(order.block));
     while (counts_.uploaded_bytes + greatest <= settings_.upload_budget_bytes) {
         std::optional<Workers::Done> done = workers_->take();
         if (!done) return;
@@ -106,6 +111,13 @@ const Stream::Changes& Stream::begin_frame() {
     else
         take_finished();
     return changes_;
+}
+
+void Stream::set_held_bytes(uint32_t block, uint64_t bytes) {
+    Slot& slot = slots_[block];
+    assert(source_.keeps_blocks && is_resident(block) && bytes >= 1 && bytes <= source_.decoded_bytes[block]);
+    counts_.resident_bytes = counts_.resident_bytes - slot.held_bytes + bytes;
+    slot.held_bytes = bytes;
 }
 
 void Stream::use(uint32_t block) {
@@ -130,7 +142,7 @@ void Stream::find_droppable() {
         const Slot& slot = slots_[block];
         if (!is_resident(block) || slot.is_kept || slot.used_frame == frame_) continue;
         droppable_.push_back(block);
-        droppable_bytes_ += slot.bytes.size();
+        droppable_bytes_ += slot.held_bytes;
     }
     std::sort(droppable_.begin(), droppable_.end(), [&](uint32_t a, uint32_t b) {
         uint64_t used_a = slots_[a].used_frame, used_b = slots_[b].used_frame;
@@ -147,8 +159,9 @@ bool Stream::make_room(uint64_t wanted_bytes) {
     while (counts_.resident_bytes + counts_.on_the_way_bytes + wanted_bytes > settings_.residency_budget_bytes) {
         uint32_t block = droppable_.back();
         droppable_.pop_back();
-        uint64_t bytes = slots_[block].bytes.size();
+        uint64_t bytes = slots_[block].held_bytes;
         slots_[block].bytes = Bytes();
+        slots_[block].held_bytes = 0;
         counts_.resident_bytes -= bytes, droppable_bytes_ -= bytes;
         ++counts_.dropped_count;
         dropped_.push_back(block);
@@ -157,9 +170,9 @@ bool Stream::make_room(uint64_t wanted_bytes) {
 }
 
 void Stream::send_for(uint32_t block) {
-    uint64_t bytes = source_.decoded_bytes[block],
+    uint64_t bytes = source_.decoded_bytes[block], upload = source_.upload_bytes_of(block),
              most_on_the_way = kFramesOnTheWay * settings_.upload_budget_bytes * settings_.latency_frames.value_or(1);
-    if (counts_.on_the_way_bytes + bytes > most_on_the_way) return;
+    if (uploads_on_the_way_bytes_ + upload > most_on_the_way) return;
     if (!make_room(bytes)) {
         ++counts_.refused_count;
         return;
@@ -168,6 +181,7 @@ void Stream::send_for(uint32_t block) {
     for (uint32_t need : source_.needs_of(block)) order.needed.push_back(slots_[need].bytes);
     slots_[block].is_on_the_way = true;
     counts_.on_the_way_bytes += bytes;
+    uploads_on_the_way_bytes_ += upload;
     ++counts_.sent_for_count;
     on_the_way_.push_back({block, frame_ + settings_.latency_frames.value_or(1)});
     workers_->begin(std::move(order));

@@ -27,11 +27,16 @@ struct Source {
     std::vector<uint64_t> decoded_bytes;         // [n], 1 at least
     std::vector<uint32_t> need_begin{0}, needs;  // [n + 1], [..] compressed rows: blocks that come before block i, all below i
 
-    // A block as exactly its decoded_bytes; needed: the bytes of its needs, in their order. Called by several workers at once,
-    // for different blocks. Must not touch what the frame's thread changes.
+    std::vector<uint64_t> upload_bytes;  // [n] of what a frame takes over with a block; empty: all of it
+    // The source itself keeps what it decodes, in decoded_bytes at most, until the block is dropped.
+    bool keeps_blocks = false;
+
+    // A block as exactly its decoded_bytes, or as nothing if the source keeps it; needed: the bytes of its needs, in their order.
+    // Called by several workers at once, for different blocks. Must not touch what the frame's thread changes.
     std::function<Result<Bytes>(uint32_t block, std::span<const std::span<const std::byte>> needed)> decode;
 
     uint32_t block_count() const { return uint32_t(decoded_bytes.size()); }
+    uint64_t upload_bytes_of(uint32_t block) const { return upload_bytes.empty() ? decoded_bytes[block] : upload_bytes[block]; }
     std::span<const uint32_t> needs_of(uint32_t block) const {
         return std::span(needs).subspan(need_begin[block], need_begin[block + 1] - need_begin[block]);
     }
@@ -80,8 +85,12 @@ class Stream {
     };
     const Changes& begin_frame();
 
-    bool is_resident(uint32_t block) const { return !slots_[block].bytes.empty(); }
-    std::span<const std::byte> bytes(uint32_t block) const { return slots_[block].bytes; }  // empty if it is not there
+    bool is_resident(uint32_t block) const { return slots_[block].held_bytes > 0; }
+    // Empty if it is not there, or if the source keeps it.
+    std::span<const std::byte> bytes(uint32_t block) const { return slots_[block].bytes; }
+    // Of a source that keeps its blocks: this one, which is there, takes so many bytes in truth, 1 at least and its decoded_bytes
+    // at most.
+    void set_held_bytes(uint32_t block, uint64_t bytes);
 
     // The present frame draws with this block, which is there: neither it nor what it needs goes before end_frame() of a later
     // frame that does not use it.
@@ -101,6 +110,7 @@ class Stream {
   private:
     struct Slot {
         Bytes bytes;
+        uint64_t held_bytes = 0;
         uint64_t used_frame = 0;
         bool is_kept = false, is_on_the_way = false, has_failed = false;
     };
@@ -132,7 +142,7 @@ class Stream {
     std::vector<Wish> wishes_;
     std::vector<uint32_t> droppable_;  // of this end_frame(), the next to go last
     bool knows_droppable_ = false;
-    uint64_t droppable_bytes_ = 0;
+    uint64_t droppable_bytes_ = 0, uploads_on_the_way_bytes_ = 0;
     Changes changes_;
     std::vector<uint32_t> dropped_;  // since begin_frame()
     Counts counts_;

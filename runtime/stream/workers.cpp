@@ -22,10 +22,10 @@ Workers::~Workers() {
 Result<Bytes> Workers::decode(const Source& source, const Order& order) {
     try {
         Result<Bytes> decoded = source.decode(order.block, order.needed);
-        if (decoded && decoded->size() != source.decoded_bytes[order.block])
-            return tl::unexpected(
-                Error{Exit::our_bug, fmt::format("a streamed block {} decodes to {} bytes, {} were announced", order.block,
-                                                 decoded->size(), source.decoded_bytes[order.block])});
+        uint64_t wanted = source.keeps_blocks ? 0 : source.decoded_bytes[order.block];
+        if (decoded && decoded->size() != wanted)
+            return tl::unexpected(Error{Exit::our_bug, fmt::format("a streamed block {} decodes to {} bytes, {} were announced",
+                                                                   order.block, decoded->size(), wanted)});
         return decoded;
     } catch (const std::bad_alloc&) {
         return impossible("there is not enough memory for a streamed block of {} bytes", source.decoded_bytes[order.block]);

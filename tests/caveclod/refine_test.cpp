@@ -10,12 +10,18 @@
 #include "formats/parallel.h"
 #include "runtime/caveclod/refine.h"
 #include "runtime/caveclod/screen_test.h"
+#include "tests/caveclod/drawn_faces.h"
 #include "tests/caveclod/flights.h"
 #include "tests/caveclod/synthetic_hierarchy.h"
 
 namespace overlook::caveclod {
 namespace {
 
+using synthetic::applied;
+using synthetic::buffers;
+using synthetic::drawn;
+using synthetic::expected;
+using synthetic::is_closed;
 using synthetic::Triangle;
 
 using flights::camera_at;
@@ -30,38 +36,6 @@ Mesh mesh_of(const Hierarchy& hierarchy) {
     return std::move(*mesh);
 }
 
-std::vector<Triangle> drawn(const Refinement& refinement) {
-    std::vector<Triangle> triangles;
-    const FaceSlots& faces = refinement.faces();
-    for (uint32_t surface = 0; surface < faces.surface_count(); ++surface)
-        for (uint32_t p = 0; p < faces.pages(surface).size(); ++p)
-            for (uint32_t i = 0; i < faces.page_count(surface, p); ++i) {
-                const FacePage& page = *faces.pages(surface)[p];
-                triangles.push_back({page.faces[i], {}, {page.indices[3 * i], page.indices[3 * i + 1], page.indices[3 * i + 2]}});
-            }
-    std::sort(triangles.begin(), triangles.end());
-    return triangles;
-}
-
-std::vector<bool> applied(const Refinement& refinement) {
-    std::vector<bool> bits;
-    for (uint32_t i = 0; i < refinement.mesh().split_count(); ++i) bits.push_back(refinement.is_applied(i));
-    return bits;
-}
-
-std::vector<Triangle> expected(const Hierarchy& h, const Refinement& refinement) {
-    std::vector<Triangle> triangles = synthetic::triangles_of(h, applied(refinement));
-    for (Triangle& t : triangles) t.positions = {};
-    return triangles;
-}
-
-bool is_closed(const Hierarchy& h, const std::vector<bool>& is_applied) {
-    for (uint32_t i = 0; i < h.split_count(); ++i)
-        for (uint32_t k = h.need_begin[i]; is_applied[i] && k < h.need_begin[i + 1]; ++k)
-            if (!is_applied[h.needs[k]]) return false;
-    return true;
-}
-
 TEST(Refinement, DrawsAtEveryFrameTheFacesOfALegalCut) {
     Mesh mesh = mesh_of(hills());
     for (uint32_t most_operations : {0u, 50u}) {
@@ -72,7 +46,7 @@ TEST(Refinement, DrawsAtEveryFrameTheFacesOfALegalCut) {
         for (int frame = 0; frame < 60; ++frame) {
             FrameReport report = refinement.refine(flown(frame * 0.1), settings, kFrame_s);
             splits += report.split_count, collapses += report.collapse_count;
-            ASSERT_TRUE(is_closed(hills(), applied(refinement)));
+            ASSERT_TRUE(is_closed(hills(), applied(hills(), refinement)));
             ASSERT_EQ(drawn(refinement), expected(hills(), refinement));
             ASSERT_EQ(report.triangle_count, drawn(refinement).size());
         }
@@ -99,7 +73,7 @@ TEST(Refinement, IsTheStatelessAnswerOnceItIsSettled) {
             wanted[i] = test(i).wants_split;
             for (uint32_t k = h.need_begin[i]; k < h.need_begin[i + 1]; ++k) wanted[i] = wanted[i] && wanted[h.needs[k]];
         }
-        EXPECT_EQ(applied(refinement), wanted);
+        EXPECT_EQ(applied(h, refinement), wanted);
     }
 }
 
@@ -312,18 +286,6 @@ TEST(Refinement, RefinesOutlinesFurtherIfAsked) {
 TEST(Refinements, OfManyCamerasAreEachAsIfAloneWithAnyThreadCount) {
     Mesh mesh = mesh_of(hills());
     constexpr size_t kCameras = 4;
-    auto buffers = [](const Refinement& refinement) {
-        std::vector<uint32_t> all;
-        for (uint32_t surface = 0; surface < refinement.faces().surface_count(); ++surface)
-            for (uint32_t p = 0; p < refinement.faces().pages(surface).size(); ++p) {
-                const FacePage& page = *refinement.faces().pages(surface)[p];
-                all.insert(all.end(), page.indices.begin(), page.indices.begin() + 3 * refinement.faces().page_count(surface, p));
-            }
-        for (const GlideVertex& vertex : refinement.glide_vertices())
-            all.insert(all.end(), {vertex.to_bits, vertex.from[0], vertex.from[1], vertex.from[2], vertex.weights[0],
-                                   vertex.weights[1], uint32_t(1e6f * vertex.share)});
-        return all;
-    };
     Settings settings = plain();
     settings.glide_s = 0.25, settings.most_operations = 300;
     std::vector<std::vector<uint32_t>> alone;

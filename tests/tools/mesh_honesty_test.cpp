@@ -6,7 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "runtime/caveclod/mesh_stream.h"
 #include "runtime/caveclod/refine.h"
+#include "tests/caveclod/mesh_files.h"
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/bake.h"
 #include "tools/measure/numbers/honesty_tally.h"
@@ -130,6 +132,37 @@ TEST(HonestyOfCaveclod, NothingInAFrameIsFartherOffThanPromised) {
     EXPECT_GE(judged.all.ratio_median, kIdleRatio);
     std::printf("measured over promised: %.3f at most, %.3f in the median of %zu frames\n", judged.all.ratio_max,
                 judged.all.ratio_median, judged.frames);
+}
+
+// While a mesh comes block by block, and with as much as a little memory holds.
+TEST(HonestyOfCaveclod, NothingIsFartherOffThanPromisedWhileBlocksAreMissing) {
+    Baked torus(caveclod::test::torus(120, 60, 10, 4));
+    MeshHonesty judge(torus.hierarchy);
+    std::string file = caveclod::synthetic::file_of(torus.hierarchy);
+    size_t judged = 0, lacking = 0;
+    for (uint64_t seed = 0; seed < 24; ++seed) {
+        std::vector<container::Reader> readers;
+        readers.push_back(*container::Reader::open_bytes(std::as_bytes(std::span(file)), "torus.ovl"));
+        uint64_t budget_bytes = seed % 3 == 0 ? 2 << 20 : 1 << 30;
+        auto stream = caveclod::MeshStream::open(std::move(readers), {budget_bytes, 1 << 20, 1, 2});
+        ASSERT_TRUE(stream) << stream.error().message;
+        caveclod::Refinement refinement((*stream)->mesh(0));
+        caveclod::Settings settings;
+        settings.error_px = seed % 4 == 0 ? 4 : 0.7, settings.most_operations = 0, settings.glide_s = 0;
+        view::Camera camera = random_camera(*torus.mesh, seed);
+        for (int frame = 0; frame < 9; ++frame) {
+            ASSERT_TRUE((*stream)->begin_frame().empty());
+            caveclod::FrameReport report = refinement.refine(camera, settings, 0);
+            (*stream)->take_note(0, refinement, camera, settings, report.missing_px);
+            (*stream)->end_frame();
+            lacking += report.missing_px > settings.error_px;
+            Promises promises = judge.promises_of(corners_of(refinement), camera, report.error_px);
+            for (size_t i = 0; i < promises.predicted_px.size(); ++i, ++judged)
+                EXPECT_LE(promises.measured_px[i], promises.predicted_px[i]) << seed << " " << frame;
+        }
+    }
+    EXPECT_GT(judged, 100u);
+    EXPECT_GT(lacking, 40u);
 }
 
 TEST(HonestyOfCaveclod, APromiseOfLessIsFoundOut) {

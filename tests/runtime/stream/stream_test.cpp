@@ -248,5 +248,45 @@ TEST(Stream, EndsWhileBlocksAreOnTheirWay) {
     }
 }
 
+// A chain of blocks that the source keeps, each of which takes less than was planned, and of which a tenth is uploaded.
+Source kept_chain(uint32_t count) {
+    Source source;
+    source.keeps_blocks = true;
+    for (uint32_t block = 0; block < count; ++block) {
+        source.decoded_bytes.push_back(kBlockBytes), source.upload_bytes.push_back(kBlockBytes / 10);
+        if (block > 0) source.needs.push_back(block - 1);
+        source.need_begin.push_back(uint32_t(source.needs.size()));
+    }
+    source.decode = [](uint32_t, std::span<const std::span<const std::byte>>) { return Result<Bytes>(Bytes()); };
+    return source;
+}
+
+TEST(StreamOfKeptBlocks, CountsWhatTheSourceSaysAndUploadsApart) {
+    auto stream = opened(kept_chain(20), deterministic(5 * kBlockBytes, kBlockBytes / 10));
+    stream->set_held_bytes(0, 400);
+    uint32_t there = 1;
+    for (uint32_t frame = 0; frame < 40; ++frame) {
+        for (uint32_t block : stream->begin_frame().arrived) {
+            EXPECT_EQ(block, there++);
+            EXPECT_TRUE(stream->is_resident(block) && stream->bytes(block).empty());
+            stream->set_held_bytes(block, 400);
+        }
+        EXPECT_LE(stream->counts().uploaded_bytes, kBlockBytes / 10);
+        stream->use(there - 1);
+        stream->ask(there, 1);
+        stream->end_frame();
+        EXPECT_EQ(stream->counts().resident_bytes, 400u * there);
+        EXPECT_LE(stream->counts().resident_bytes + stream->counts().on_the_way_bytes, 5 * kBlockBytes);
+    }
+    EXPECT_EQ(there, 11u);  // ten of 400 bytes leave room for one that might take 1,000
+    EXPECT_EQ(stream->counts().refused_count, 1u);
+}
+
+TEST(StreamOfKeptBlocks, RefusesUploadsBeyondTheBudget) {
+    auto stream = Stream::open("chain.ovl", kept_chain(3), deterministic(5 * kBlockBytes, kBlockBytes / 10 - 1));
+    ASSERT_FALSE(stream);
+    EXPECT_EQ(stream.error().message, "chain.ovl: block 0 takes 100 bytes; an upload budget of 99 is too small for it");
+}
+
 }  // namespace
 }  // namespace overlook::stream
