@@ -49,12 +49,15 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
     : mesh_(mesh),
       seams_(seams),
       report_(report),
-      quadrics_(make_quadrics(mesh)),
-      map_(make_surface_map(mesh)),
-      source_(triangles_of(mesh)),
+      source_(std::span<const Triangle>()),
       refused_(mesh.some_corner.size()),
       slack_m_(turn_slack_m(mesh.positions_m)),
       face_error_m_(mesh.face_count(), 0.0f) {
+    parallel_ranges(3, 1, [&](size_t part, size_t) {
+        if (part == 0) source_ = TriangleTree(triangles_of(mesh));
+        if (part == 1) quadrics_ = make_quadrics(mesh);
+        if (part == 2) map_ = make_surface_map(mesh);
+    });
     face_count_ = mesh.face_count();
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
@@ -309,11 +312,16 @@ void Passes::forget(uint32_t position) {
     if (known.load(std::memory_order_relaxed) > least) known.store(least, std::memory_order_relaxed);
 }
 
+// Round the kept position but outside the fan stars stay as they are: there only what becomes of edges to the fan may change.
 void Passes::mark_around(const Fan& fan) {
     Star star;
     for (uint32_t i = 0; i <= fan.count; ++i) forget(fan.link[i]);
     if (!gather_star(mesh_, fan.kept, star)) return;
-    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) forget(star.link[i]);
+    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) {
+        uint32_t wanted = candidates_[star.link[i]].kept;
+        auto link_end = fan.link.begin() + fan.count + 1;
+        if (wanted == kNone || std::find(fan.link.begin(), link_end, wanted) != link_end) forget(star.link[i]);
+    }
 }
 
 }  // namespace overlook::caveclod
