@@ -312,16 +312,11 @@ void Passes::forget(uint32_t position) {
     if (known.load(std::memory_order_relaxed) > least) known.store(least, std::memory_order_relaxed);
 }
 
-// Round the kept position but outside the fan stars stay as they are: there only what becomes of edges to the fan may change.
 void Passes::mark_around(const Fan& fan) {
     Star star;
     for (uint32_t i = 0; i <= fan.count; ++i) forget(fan.link[i]);
     if (!gather_star(mesh_, fan.kept, star)) return;
-    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) {
-        uint32_t wanted = candidates_[star.link[i]].kept;
-        auto link_end = fan.link.begin() + fan.count + 1;
-        if (wanted == kNone || std::find(fan.link.begin(), link_end, wanted) != link_end) forget(star.link[i]);
-    }
+    for (uint32_t i = 0; i < star.count + uint32_t(!star.is_closed); ++i) forget(star.link[i]);
 }
 
 }  // namespace overlook::caveclod
