@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "formats/caveclod_codes.h"
+#include "formats/parallel.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -12,9 +13,12 @@ namespace {
 // What rounding may take from a radius.
 constexpr double kRoundedUp = 1 + 1e-6;
 
+constexpr size_t kGrain = 4096;  // splits
+
 struct WideCone {
     glm::dvec3 axis{0};  // of length 1, or 0 while it holds nothing
     double half_rad = 0;
+    double cosine = 2;  // of half_rad; 2: a lone direction, or not known
 };
 
 double angle_rad(const glm::dvec3& a, const glm::dvec3& b) {
@@ -43,6 +47,7 @@ void unite(WideCone& cone, const WideCone& other) {
         cone = other;
         return;
     }
+    cone.cosine = 2;
     double half = (apart + cone.half_rad + other.half_rad) / 2;
     glm::dvec3 side = other.axis - cone.axis * glm::dot(cone.axis, other.axis);
     double length = glm::length(side);
@@ -53,6 +58,13 @@ void unite(WideCone& cone, const WideCone& other) {
     double turn = half - cone.half_rad;
     cone.axis = glm::normalize(cone.axis * std::cos(turn) + side * (std::sin(turn) / length));
     cone.half_rad = half;
+}
+
+// The same of a lone direction: most lie well within.
+void unite(WideCone& cone, const glm::dvec3& direction) {
+    if (glm::dot(cone.axis, direction) > cone.cosine) return;
+    unite(cone, WideCone{direction, 0});
+    cone.cosine = cone.half_rad > 0 ? std::cos(cone.half_rad) : 2;
 }
 
 // The mesh on its way up, and what each split itself touches there.
@@ -73,6 +85,9 @@ class Completion {
         cones_.resize(hierarchy_.split_count());
         for (uint32_t i = 0; i < hierarchy_.split_count(); ++i)
             if (const char* fault = apply(i)) return refuse(i, fault);
+        parallel_ranges(hierarchy_.split_count(), kGrain, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) enclose(uint32_t(i));
+        });
         saturate();
         return {};
     }
@@ -98,19 +113,22 @@ class Completion {
         state_.add_face(hierarchy_.face_positions[face], {wedge[0], wedge[1], wedge[2]}, split);
     }
 
-    // A version of a face in the sphere and the cone of the split that makes it or ends it.
-    void touch(uint32_t split, uint32_t face) {
-        const auto& at = state_.positions(face);
-        glm::dvec3 corners[3];
-        for (size_t c = 0; c < 3; ++c) corners[c] = glm::dvec3(hierarchy_.positions_m[at[c]]);
+    // The versions of faces that the split makes or ends, in its sphere and its cone.
+    void enclose(uint32_t split) {
         glm::dvec3 middle(hierarchy_.positions_m[hierarchy_.owner[split]]);
-        for (const glm::dvec3& corner : corners) {
-            radius_[split] = std::max(radius_[split], glm::length(corner - middle));
-            boxes_[split].take(corner);
+        double farthest2 = 0;
+        for (size_t t = touched_begin_[split]; t < touched_begin_[split + 1]; ++t) {
+            glm::dvec3 corners[3];
+            for (size_t c = 0; c < 3; ++c) corners[c] = glm::dvec3(hierarchy_.positions_m[touched_[t][c]]);
+            for (const glm::dvec3& corner : corners) {
+                farthest2 = std::max(farthest2, glm::dot(corner - middle, corner - middle));
+                boxes_[split].take(corner);
+            }
+            glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+            double length = glm::length(normal);
+            if (length > 0) unite(cones_[split], normal / length);
         }
-        glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        double length = glm::length(normal);
-        if (length > 0) unite(cones_[split], {normal / length, 0});
+        radius_[split] = std::sqrt(farthest2);
     }
 
     const char* apply(uint32_t i) {
@@ -122,7 +140,7 @@ class Completion {
         for (uint32_t corner : moved) {
             if (corner / kCorners >= h.added_begin[i] || corner % kCorners == 3 || state_.position(corner) != owner)
                 return "moves a face that is not at its owner";
-            touch(i, corner / kCorners);
+            touched_.push_back(state_.positions(corner / kCorners));
         }
         Added added;
         for (uint32_t face = h.added_begin[i]; face < h.added_begin[i + 1]; ++face) {
@@ -139,12 +157,13 @@ class Completion {
         h.need_begin.push_back(uint32_t(h.needs.size()));
         for (size_t k = 0; k < moved.size(); ++k) {
             state_.move(moved[k], created, h.moved_wedge[h.moved_begin[i] + k], i);
-            touch(i, moved[k] / kCorners);
+            touched_.push_back(state_.positions(moved[k] / kCorners));
         }
         for (uint32_t face = h.added_begin[i]; face < h.added_begin[i + 1]; ++face) {
             add_face(face, i);
-            touch(i, face);
+            touched_.push_back(h.face_positions[face]);
         }
+        touched_begin_.push_back(touched_.size());
         return nullptr;
     }
 
@@ -184,6 +203,8 @@ class Completion {
     Hierarchy& hierarchy_;
     std::vector<uint32_t> given_begin_, given_, needs_;
     MeshState state_;
+    std::vector<std::array<uint32_t, 3>> touched_;  // by each split: versions of faces before and after it
+    std::vector<size_t> touched_begin_{0};          // [S + 1] rows of touched_
     std::vector<double> radius_;
     std::vector<Box> boxes_;
     std::vector<WideCone> cones_;

@@ -96,6 +96,8 @@ TEST(Bench, WritesEveryHotFunctionIntoATableNamedByTheMachine) {
                          "pixel_error/sphere",
                          "camera_at/1000_keys",
                          "error_controller/10000_frames",
+                         "bake_mesh_1_thread/mesh_2048",
+                         "bake_mesh_2_threads/mesh_2048",
                          "caveclod_refine_moving/mesh_2048",
                          "caveclod_refine_standing/mesh_2048",
                          "caveclod_refine_4_cameras/mesh_2048",

@@ -10,6 +10,8 @@ void add_bake(const std::string& landscape);
 void add_files(const std::string& landscape, const std::string& folder);
 void add_refinement(const std::string& landscape);
 void add_view();
+// side: of a grid of rough ground of 2 * side * side triangles.
+void add_bake_mesh(uint32_t side);
 // side: of a grid of hills of 2 * side * side triangles.
 void add_caveclod(uint32_t side);
 // side_px: of the pictures.

@@ -38,7 +38,8 @@ TEST(TurnedFaces, AreNoneOfASheetThatLiesOnAnother) {
 }
 
 TEST(TurnedFaces, AreJudgedByWhatLiesNearest) {
-    mesh::Mesh up = test::grid(4, 4, [](double, double) { return 0.0; }), down = test::grid(4, 4, [](double, double) { return 0.5; });
+    mesh::Mesh up = test::grid(4, 4, [](double, double) { return 0.0; }),
+               down = test::grid(4, 4, [](double, double) { return 0.5; });
     std::vector<Triangle> both = test::triangles_of(up.positions_m, up.faces);
     for (const Triangle& t : test::triangles_of(down.positions_m, down.faces)) both.push_back(back_of(t));
     TriangleTree source(both);
@@ -60,11 +61,46 @@ TEST(TurnedFaces, AreTheSameHoweverTheyAreLookedFor) {
         Triangle face;
         for (glm::dvec3& p : face) p = near[0] + (glm::dvec3(share(), share(), share()) - 0.5) * size_m;
         bool is = is_turned(source, face, kSlack_m);
-        EXPECT_EQ(none_is_turned(source, std::span(&face, 1), 3 * size_m, kSlack_m), !is);
+        EXPECT_EQ(first_turned(source, std::span(&face, 1), 3 * size_m, kSlack_m), is ? 0u : 1u);
+        uint32_t guess = uint32_t(random() % source.triangles().size());
+        EXPECT_EQ(is_turned(source, face, kSlack_m, guess), is) << guess;
         turned += is;
     }
     EXPECT_GT(turned, 500u);
     EXPECT_LT(turned, 2500u);
+}
+
+// All triangles looked at, one after the other.
+double facing_of_all(const TriangleTree& tree, const glm::dvec3& p, const glm::dvec3& direction, double slack_m) {
+    auto away_m = [&](const Triangle& t) { return std::sqrt(distance2_to_triangle(p, probe_of(t[0], t[1], t[2]))); };
+    double least_m = 1e300, best = -1;
+    for (const Triangle& t : tree.triangles()) least_m = std::min(least_m, away_m(t));
+    for (const Triangle& t : tree.triangles())
+        if (away_m(t) <= least_m * (1 + 1e-6) + slack_m)
+            best = std::max(best, glm::dot(glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0])), direction));
+    return best;
+}
+
+// At corners of a fan of two hundred too, which are nearer than any list of what was found holds.
+TEST(TriangleTree, TellsTheBestFacingOfAllThatAreNearest) {
+    mesh::Mesh mesh = test::grid(12, 12, test::rough_m);
+    std::vector<Triangle> triangles = test::triangles_of(mesh.positions_m, mesh.faces);
+    auto rim = [](int i) { return glm::dvec3(3 + std::cos(i * 0.0314), std::sin(i * 0.0314), 0.3 * std::sin(i * 0.7)); };
+    for (int i = 0; i < 200; ++i) triangles.push_back({glm::dvec3(3, 0, 1), rim(i), rim(i + 1)});
+    TriangleTree tree(triangles);
+    std::mt19937 random(5);
+    auto share = [&] { return double(random()) / 4294967296.0; };
+    for (int i = 0; i < 400; ++i) {
+        glm::dvec3 p(share() * 4, share() * 2 - 1, share() * 1.5),
+            direction = glm::normalize(glm::dvec3(share(), share(), share()) - 0.5);
+        if (i % 4 == 0) p = glm::dvec3(3, 0, 1 + share());
+        if (i % 4 == 1) p = triangles[random() % triangles.size()][0];
+        uint32_t guess = i % 3 == 0 ? kNoGuess : uint32_t(random() % triangles.size());
+        double expected = facing_of_all(tree, p, direction, kSlack_m);
+        bool is_ahead = guess != kNoGuess && tree.nearest_face(p, direction, kSlack_m, guess);
+        EXPECT_TRUE(!is_ahead || expected > 0);
+        EXPECT_NEAR(tree.facing_of_nearest(p, direction, kSlack_m, guess), expected, 1e-9);
+    }
 }
 
 TEST(TriangleTree, FindsTheNearestAmongLargeAndSmall) {
@@ -85,7 +121,8 @@ TEST(TriangleTree, FindsTheNearestAmongLargeAndSmall) {
 TEST(TriangleTree, OfNothingHasNothingNear) {
     TriangleTree none{std::span<const Triangle>()};
     EXPECT_EQ(none.nearest({0, 0, 0}, 5).triangle, 0xffffffffu);
-    EXPECT_EQ(none.facing_of_nearest({0, 0, 0}, {0, 0, 1}, kSlack_m), 0);
+    uint32_t guess = kNoGuess;
+    EXPECT_EQ(none.facing_of_nearest({0, 0, 0}, {0, 0, 1}, kSlack_m, guess), 0);
 }
 
 }  // namespace

@@ -95,7 +95,22 @@ std::vector<Quadric> make_quadrics(const WorkingMesh& mesh) {
     return quadrics;
 }
 
-Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, uint32_t position, double above_m) {
+void RefusedFaces::add(const Fan& fan, uint32_t place) {
+    faces_.push_back({fan.kept, fan.link[place], fan.link[place + 1], first_[fan.gone]});
+    first_[fan.gone] = uint32_t(faces_.size() - 1);
+}
+
+bool RefusedFaces::has_one_of(const Fan& fan) const {
+    for (uint32_t f = first_[fan.gone]; f != kNone; f = faces_[f].next) {
+        if (faces_[f].kept != fan.kept) continue;
+        for (uint32_t i = fan.first; i <= fan.last; ++i)
+            if (fan.link[i] == faces_[f].second && fan.link[i + 1] == faces_[f].third) return true;
+    }
+    return false;
+}
+
+Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadrics, const RefusedFaces& refused,
+                         uint32_t position, double above_m) {
     Choices choices;
     if (!estimate(mesh, quadrics[position], position, choices)) return {};
     Fan fan;
@@ -105,8 +120,8 @@ Candidate find_candidate(const WorkingMesh& mesh, std::span<const Quadric> quadr
         uint32_t at = cheapest(choices);
         double bare_m = std::sqrt(choices.cost2[at]);
         if (bare_m >= best.cost_m) break;
-        bool is_allowed = bare_m > above_m && fan_of(choices.star, position, at, fan) && keeps_groups(mesh, fan, turned) &&
-                          keeps_orientation(mesh, fan) && keeps_topology(mesh, fan);
+        bool is_allowed = bare_m > above_m && fan_of(choices.star, position, at, fan) && !refused.has_one_of(fan) &&
+                          keeps_groups(mesh, fan, turned) && keeps_orientation(mesh, fan) && keeps_topology(mesh, fan);
         choices.cost2[at] = std::numeric_limits<double>::infinity();
         if (!is_allowed) continue;
         double cost_m = std::max(bare_m, seam_shift_m(mesh, fan, turned));

@@ -26,23 +26,46 @@ inline TriangleProbe probe_of(const glm::dvec3& a, const glm::dvec3& b, const gl
     return {a, b, c, normal, normal2 > 0 ? 1 / normal2 : 0};
 }
 
+// Which sides of a triangle a point lies beyond, as seen along its normal.
+struct Beyond {
+    bool ab = false, bc = false, ca = false;
+};
+
 // Squared distance of p to the closed triangle: to its plane where p lies over the inside, else to the nearest of the sides that
 // p lies beyond (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
-inline double distance2_to_triangle(const glm::dvec3& p, const TriangleProbe& t) {
-    glm::dvec3 pa = p - t.a, pb = p - t.b, pc = p - t.c;
-    bool beyond_ab = glm::dot(glm::cross(pa, pb), t.normal) < 0;
-    bool beyond_bc = glm::dot(glm::cross(pb, pc), t.normal) < 0;
-    bool beyond_ca = glm::dot(glm::cross(pc, pa), t.normal) < 0;
-    if (!beyond_ab && !beyond_bc && !beyond_ca && t.inverse_normal2 > 0) {
-        double height = glm::dot(pa, t.normal);
+inline double distance2_to_triangle(const glm::dvec3& p, const TriangleProbe& t, const Beyond& beyond) {
+    if (!beyond.ab && !beyond.bc && !beyond.ca && t.inverse_normal2 > 0) {
+        double height = glm::dot(p - t.a, t.normal);
         return height * height * t.inverse_normal2;
     }
     bool is_flat = t.inverse_normal2 == 0;
     double least = 1e300;
-    if (beyond_ab || is_flat) least = std::min(least, distance2_to_segment(p, t.a, t.b));
-    if (beyond_bc || is_flat) least = std::min(least, distance2_to_segment(p, t.b, t.c));
-    if (beyond_ca || is_flat) least = std::min(least, distance2_to_segment(p, t.c, t.a));
+    if (beyond.ab || is_flat) least = std::min(least, distance2_to_segment(p, t.a, t.b));
+    if (beyond.bc || is_flat) least = std::min(least, distance2_to_segment(p, t.b, t.c));
+    if (beyond.ca || is_flat) least = std::min(least, distance2_to_segment(p, t.c, t.a));
     return least;
+}
+
+inline double distance2_to_triangle(const glm::dvec3& p, const TriangleProbe& t) {
+    glm::dvec3 pa = p - t.a, pb = p - t.b, pc = p - t.c;
+    return distance2_to_triangle(p, t,
+                                 {glm::dot(glm::cross(pa, pb), t.normal) < 0, glm::dot(glm::cross(pb, pc), t.normal) < 0,
+                                  glm::dot(glm::cross(pc, pa), t.normal) < 0});
+}
+
+// One that very many points are held against: its sides' normals, which point inwards, are at hand as well.
+struct SidedProbe : TriangleProbe {
+    glm::dvec3 inward_ab, inward_bc, inward_ca;
+};
+
+inline SidedProbe sided_probe_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    TriangleProbe t = probe_of(a, b, c);
+    return {t, glm::cross(t.normal, b - a), glm::cross(t.normal, c - b), glm::cross(t.normal, a - c)};
+}
+
+inline double distance2_to_triangle(const glm::dvec3& p, const SidedProbe& t) {
+    return distance2_to_triangle(
+        p, t, {glm::dot(p - t.a, t.inward_ab) < 0, glm::dot(p - t.b, t.inward_bc) < 0, glm::dot(p - t.c, t.inward_ca) < 0});
 }
 
 // Where on the segment a-b the point nearest to segment c-d lies, as a share 0..1 of the way from a to b.

@@ -146,6 +146,16 @@ void fill_figures(const GroupsAtPositions& at, Groups& groups) {
     groups.rows_bytes = 4 * (position_count + 1) + 4 * groups.vertices.size();
 }
 
+Result<Packing> pack(Groups& groups) {
+    GroupsAtPositions at = gather_groups(groups);
+    Result<Packing> packing = pack_groups(at, uint32_t(groups.group_surface.size()));
+    if (!packing) return packing;
+    groups.packed_count = packing->count;
+    groups.clique_bound = packing->clique_bound;
+    fill_figures(at, groups);
+    return packing;
+}
+
 uint64_t count_fixed_faces(Corners faces, const Groups& groups) {
     auto is_rigid = [&](uint32_t position) { return groups.kind[position] == PositionKind::rigid; };
     return uint64_t(std::count_if(faces.begin(), faces.end(), [&](const std::array<uint32_t, 3>& corners) {
@@ -166,17 +176,16 @@ Result<Groups> find_groups(const mesh::Mesh& mesh, const GroupOptions& options) 
     classify_positions(mesh.faces, edges, is_smooth, mesh.link, position_count, groups);
     make_vertices(mesh, edges, is_smooth, looks, groups);
 
-    GroupsAtPositions at = gather_groups(groups);
-    Result<Packing> packing = pack_groups(at, uint32_t(groups.group_surface.size()));
+    // Each fills fields of its own, and reads none of the others'.
+    Result<Packing> packing;
+    parallel_ranges(3, 1, [&](size_t part, size_t) {
+        if (part == 0) packing = pack(groups);
+        if (part == 1) groups.floor_face_estimate = least_face_count(mesh.faces, edges, groups);
+        if (part == 2) groups.budgeted_floor_face_estimate = least_face_count(mesh.faces, edges, with_borders_alone(groups));
+    });
     if (!packing) return tl::unexpected(packing.error());
     groups.group_packed = std::move(packing->packed);
-    groups.packed_count = packing->count;
-    groups.clique_bound = packing->clique_bound;
-
-    fill_figures(at, groups);
     groups.fixed_face_count = count_fixed_faces(mesh.faces, groups);
-    groups.floor_face_estimate = least_face_count(mesh.faces, edges, groups);
-    groups.budgeted_floor_face_estimate = least_face_count(mesh.faces, edges, with_borders_alone(groups));
     return groups;
 }
 

@@ -49,7 +49,7 @@ uint64_t turned_count(const Hierarchy& h, const Source& source, const CutFaces& 
     for (size_t f = 0; f < cut.face.size(); ++f) {
         if (cut.positions[f] == source.finest.positions[cut.face[f]]) continue;
         Triangle face = triangle_of(h, cut.positions[f]);
-        count += !none_is_turned(source.tree, std::span(&face, 1), stated_m, source.slack_m);
+        count += first_turned(source.tree, std::span(&face, 1), stated_m, source.slack_m, std::span(&cut.face[f], 1)) == 0;
     }
     return count;
 }

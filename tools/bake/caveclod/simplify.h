@@ -52,7 +52,7 @@ struct SimplifyReport {
 // that SurfaceMap moves a point of the source over all that the split touches, rounded up and saturated over needs: an upper
 // bound of the two-sided distance, whatever else is drawn. Where seams move, it is never less than how far a corner's attributes
 // have been carried from where the source has them. Positions are the mesh's own; quantising them afterwards adds what it
-// moves (add_displacement). Same mesh, same hierarchy, for any number of threads. O(F log F) and about 700 bytes a face. Fails
+// moves (add_displacement). Same mesh, same hierarchy, for any number of threads. O(F log F) and about 900 bytes a face. Fails
 // with Exit::bad_input where the mesh is not a surface: "face 12 cannot be added: an edge of it has two faces already, or the
 // faces at a corner are no fan". `progress` is called with the share done, 0..1, from this thread.
 Result<Hierarchy> build_hierarchy(

@@ -49,11 +49,15 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
     : mesh_(mesh),
       seams_(seams),
       report_(report),
-      quadrics_(make_quadrics(mesh)),
-      map_(make_surface_map(mesh)),
-      source_(triangles_of(mesh)),
+      source_(std::span<const Triangle>()),
+      refused_(mesh.some_corner.size()),
       slack_m_(turn_slack_m(mesh.positions_m)),
       face_error_m_(mesh.face_count(), 0.0f) {
+    parallel_ranges(3, 1, [&](size_t part, size_t) {
+        if (part == 0) source_ = TriangleTree(triangles_of(mesh));
+        if (part == 1) quadrics_ = make_quadrics(mesh);
+        if (part == 2) map_ = make_surface_map(mesh);
+    });
     face_count_ = mesh.face_count();
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
@@ -120,7 +124,7 @@ void Passes::check_candidates() {
         for (size_t i = begin; i < end; ++i) {
             uint32_t p = queue_[i].second;
             if (known_[p] == kAllowed) continue;
-            candidates_[p] = find_candidate(mesh_, quadrics_, p, known_[p] == kNext ? candidates_[p].bare_cost_m : -1);
+            candidates_[p] = find_candidate(mesh_, quadrics_, refused_, p, known_[p] == kNext ? candidates_[p].bare_cost_m : -1);
             known_[p] = kAllowed;
             queue_[i].first =
                 candidates_[p].kept == kNone ? std::numeric_limits<float>::infinity() : float(candidates_[p].cost_m);
@@ -204,7 +208,8 @@ void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& change
     if (mesh_.seams_move) measure_seams(chosen, prepared, changes);
     chosen.is_refused = !chosen.measured.faces_its_source || !chosen.seam_error.is_within(seams_);
     bool may_be_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
-    if (may_be_made) chosen.is_refused = !turns_no_face(chosen, fan);
+    if (may_be_made) chosen.turned_face = find_turned_face(chosen, fan);
+    chosen.is_refused |= chosen.turned_face != kNone;
 }
 
 void Passes::measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapChanges& changes) const {
@@ -216,12 +221,17 @@ void Passes::measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapC
 }
 
 // Every point of a new face is where the map has moved some point of the source, so some source is within the fan's error of it.
-bool Passes::turns_no_face(const Chosen& chosen, const Fan& fan) const {
+uint32_t Passes::find_turned_face(const Chosen& chosen, const Fan& fan) const {
     std::array<Triangle, kMostValence> faces;
+    std::array<uint32_t, kMostValence> guesses;  // what the face was in the source
     uint32_t count = 0;
-    for (uint32_t i = fan.first; i <= fan.last; ++i)
-        faces[count++] = {mesh_.at(fan.kept), mesh_.at(fan.link[i]), mesh_.at(fan.link[i + 1])};
-    return none_is_turned(source_, std::span(faces).first(count), chosen.fan_error_m, slack_m_);
+    for (uint32_t i = fan.first; i <= fan.last; ++i, ++count) {
+        faces[count] = {mesh_.at(fan.kept), mesh_.at(fan.link[i]), mesh_.at(fan.link[i + 1])};
+        guesses[count] = fan.corner[i] / kCorners;
+    }
+    size_t turned =
+        first_turned(source_, std::span(faces).first(count), chosen.fan_error_m, slack_m_, std::span(guesses).first(count));
+    return turned == count ? kNone : fan.first + uint32_t(turned);
 }
 
 void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) {
@@ -247,6 +257,7 @@ void Passes::decide(CollapseLog& log) {
         Chosen& chosen = chosen_[i];
         Candidate& candidate = candidates_[chosen.gone];
         chosen.is_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+        if (chosen.turned_face != kNone) refused_.add(fans_[i].fan, chosen.turned_face);
         if (chosen.is_refused) {
             if (mesh_.seams_move)
                 known_[chosen.gone] = kNext;

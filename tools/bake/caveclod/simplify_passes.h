@@ -28,6 +28,7 @@ class Passes {
         double fan_error_m = 0;  // of all that is drawn in the fan afterwards
         double seam_shift_m = 0;
         SeamError seam_error;
+        uint32_t turned_face = kNone;  // in the fan, if that is why it is refused
         bool is_refused = false, is_made = false;
     };
 
@@ -47,7 +48,7 @@ class Passes {
     void measure();
     void measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& changes);
     void measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapChanges& changes) const;
-    bool turns_no_face(const Chosen& chosen, const Fan& fan) const;
+    uint32_t find_turned_face(const Chosen& chosen, const Fan& fan) const;
     void decide(CollapseLog& log);
     void record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log);
     void provide_crossings();
@@ -61,6 +62,7 @@ class Passes {
     std::vector<Quadric> quadrics_;
     SurfaceMap map_;
     TriangleTree source_;
+    RefusedFaces refused_;
     double slack_m_ = 0;
     std::vector<float> face_error_m_;  // [F] of all that is drawn where the face is
     uint64_t face_count_ = 0;

@@ -41,7 +41,7 @@ class FanMeasure {
 
     void place_positions() {
         for (uint32_t i = fan_.first; i <= fan_.last; ++i) {
-            probes_[i] = probe_of(kept_, mesh_.at(fan_.link[i]), mesh_.at(fan_.link[i + 1]));
+            probes_[i] = sided_probe_of(kept_, mesh_.at(fan_.link[i]), mesh_.at(fan_.link[i + 1]));
             area_vectors_[i] = glm::dvec3(0);
             if (i > fan_.first) beyond_spoke_[i] = glm::cross(probes_[i - 1].normal + probes_[i].normal, probes_[i].b - kept_);
         }
@@ -228,7 +228,7 @@ class FanMeasure {
     MapChanges& changes_;
     glm::dvec3 kept_;
     double greatest2_ = 0;
-    std::array<TriangleProbe, kMostValence> probes_;
+    std::array<SidedProbe, kMostValence> probes_;
     std::array<glm::dvec3, kMostValence> area_vectors_;
     std::array<glm::dvec3, kMostValence> beyond_spoke_;  // points from the spoke before a face into it
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 namespace overlook::caveclod {
 namespace {
@@ -36,24 +37,37 @@ bool is_plain(const TriangleTree& source, std::span<const Triangle> faces, doubl
 
 }  // namespace
 
-bool is_turned(const TriangleTree& source, const Triangle& face, double slack_m) {
+bool is_turned(const TriangleTree& source, const Triangle& face, double slack_m, uint32_t guess) {
     glm::dvec3 normal = normal_of(face);
     double length = glm::length(normal), sum = 0;
     if (!(length > 0)) return false;
-    for (size_t i = 0; i < kPlaces.size(); ++i) {
-        const glm::dvec3& w = kPlaces[i];
-        sum += source.facing_of_nearest(face[0] * w.x + face[1] * w.y + face[2] * w.z, normal / length, slack_m);
-        if (sum >= double(kPlaces.size() - 1 - i)) return false;  // whatever the places left say
+    normal /= length;
+    auto place = [&](size_t i) { return face[0] * kPlaces[i].x + face[1] * kPlaces[i].y + face[2] * kPlaces[i].z; };
+    std::array<bool, kPlaces.size()> is_ahead{};  // the nearest source faces the face, by however much
+    std::array<double, kPlaces.size()> facing{};
+    size_t behind_count = kPlaces.size();  // may be as little as -1
+    for (size_t i = 0; i < kPlaces.size(); ++i, --behind_count) {
+        if (sum >= double(behind_count)) return false;
+        is_ahead[i] = guess != kNoGuess && source.nearest_face(place(i), normal, slack_m, guess);
+        if (is_ahead[i]) continue;
+        facing[i] = source.facing_of_nearest(place(i), normal, slack_m, guess);
+        sum += facing[i];
     }
-    return sum < 0;
+    if (sum >= 0) return false;
+    for (size_t i = 0; i < kPlaces.size(); ++i)
+        if (is_ahead[i]) facing[i] = source.facing_of_nearest(place(i), normal, slack_m, guess);
+    return std::accumulate(facing.begin(), facing.end(), 0.0) < 0;
 }
 
-bool none_is_turned(const TriangleTree& source, std::span<const Triangle> faces, double away_m, double slack_m) {
+size_t first_turned(const TriangleTree& source, std::span<const Triangle> faces, double away_m, double slack_m,
+                    std::span<const uint32_t> guesses) {
     double reach_m = away_m * (1 + kSlackShare) + 3 * slack_m;
-    if (is_plain(source, faces, reach_m)) return true;
-    return std::all_of(faces.begin(), faces.end(), [&](const Triangle& face) {
-        return is_plain(source, std::span(&face, 1), reach_m) || !is_turned(source, face, slack_m);
-    });
+    if (is_plain(source, faces, reach_m)) return faces.size();
+    for (size_t i = 0; i < faces.size(); ++i) {
+        if (is_plain(source, faces.subspan(i, 1), reach_m)) continue;
+        if (is_turned(source, faces[i], slack_m, guesses.empty() ? kNoGuess : guesses[i])) return i;
+    }
+    return faces.size();
 }
 
 double turn_slack_m(std::span<const glm::vec3> positions_m) {
