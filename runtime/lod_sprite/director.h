@@ -38,8 +38,8 @@ struct Settings {
     double morph = 0;          // of the coarse cut (view::PixelDetail)
     KeyMode mode = KeyMode::sliced;
     bool keeps_outlines = true;  // of things whose coarse cut is not raised: refined along them (view::PixelDetail)
-    bool closes_open = true;  // what no key is proven to show is drawn finer than the coarse cut (shown.h)
-    bool draws_near = true;   // what keys could not serve for their life is drawn as geometry
+    bool closes_open = true;     // what no key is proven to show is drawn finer than the coarse cut (shown.h)
+    bool draws_near = true;      // what keys could not serve for their life is drawn as geometry
     // That a frame may draw, those into keys included (of sliced keys: spending.h); 0 = as many as its errors take.
     double triangles = 0;
 };

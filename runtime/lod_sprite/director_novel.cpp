@@ -71,9 +71,9 @@ void Director::cut_coarse() {
         double coarser = spending_.coarser(is_coarse);
         novel_.near_error_px = fine_error_px() * coarser;
         novel_.low_error_px = is_coarse ? settings_.low_error_px * coarser : novel_.near_error_px;
-        novel_.cut = geometry_.cut_coarse(
-            camera_, {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px, novel_.finer_outside,
-                      novel_.finer_in, settings_.keeps_outlines});
+        novel_.cut =
+            geometry_.cut_coarse(camera_, {novel_.low_error_px, settings_.morph, novel_.near_depth_m, novel_.near_error_px,
+                                           novel_.finer_outside, novel_.finer_in, settings_.keeps_outlines});
         fits = spending_.coarse_done(is_coarse, novel_.cut.triangle_count);
     }
 }

@@ -154,8 +154,8 @@ Result<const gl::Program*> Painter::program_of(const gl::Surface& surface, const
         fragment += slack;
         if (keys > 0) fragment += shaders::kFind;
         fragment += raises ? shaders::kNovelMain : shaders::kOwnMain;
-        Result<gl::Program> made = surface.program({fmt::format("novel view with {} keys", keys),
-                                                    raises ? slack + shaders::kRaised : "", fragment});
+        Result<gl::Program> made =
+            surface.program({fmt::format("novel view with {} keys", keys), raises ? slack + shaders::kRaised : "", fragment});
         if (!made) return tl::unexpected(made.error());
         known = programs_.emplace(name, std::move(*made)).first;
     }

@@ -41,7 +41,8 @@ struct NovelOptions {
     double tolerance_px = 0.5;   // how far from its place a key's texel may be shown
     double most_texel_px = 1.5;  // how wide a texel may have become
     uint32_t look_ups = 3;       // a pixel and key at most; 0 = it is where the coarse surface is
-    bool raises = true;          // where errors are vertical: the coarse surface up to where it covers the true one, so that outlines are kept
+    bool raises =
+        true;  // where errors are vertical: the coarse surface up to where it covers the true one, so that outlines are kept
     bool tests_slab = true;      // what a key shows must lie where the coarse surface allows it
     bool tests_places = true;    // a texel counts only where it is in its own place in this frame
     bool shows_sources = false;  // grey: the first key; yellow: another; blue: near; red: no key shows it

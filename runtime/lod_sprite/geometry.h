@@ -1,5 +1,5 @@
-// What LOD-sprite sits on, as its deciding half needs it: anything that is cut for a camera, coarsely for novel frames and finely,
-// in slices, for keys. What its drawing half needs of it stands in draw_geometry.h.
+// What LOD-sprite sits on, as its deciding half needs it: anything that is cut for a camera, coarsely for novel frames and
+// finely, in slices, for keys. What its drawing half needs of it stands in draw_geometry.h.
 #pragma once
 
 #include <cstdint>

@@ -43,8 +43,8 @@ uint64_t MeshGeometry::put_near_first(const view::Camera& camera, double near_de
             for (uint32_t slot = 0; slot < faces.page_count(surface, page); ++slot) {
                 const uint32_t* corners = &pages[page]->indices[3 * size_t(slot)];
                 bool is_near = near_depth_m > 0 && std::all_of(corners, corners + 3, [&](uint32_t vertex) {
-                    return glm::dot(mesh_.vertex_m(vertex) - eye_m, forward) < near_depth_m;
-                });
+                                   return glm::dot(mesh_.vertex_m(vertex) - eye_m, forward) < near_depth_m;
+                               });
                 std::vector<uint32_t>& into = is_near ? near_[surface] : far_[surface];
                 into.insert(into.end(), corners, corners + 3);
                 near_count += is_near;

@@ -38,7 +38,7 @@ class MeshGeometry : public Geometry {
     BySurface near_, far_;
     view::Camera key_camera_;
     double key_error_px_ = 1;
-    bool is_cut_ = false;                  // the key
+    bool is_cut_ = false;                   // the key
     uint64_t slice_begin_ = 0, drawn_ = 0;  // triangles of it
 };
 

@@ -131,7 +131,8 @@ void add_options(CLI::App& app, Options& options) {
         ->type_name("FILE.png");
     app.add_option("--method", options.method,
                    "What to draw with: a terrain by terrain, lod-sprite or lod-sprite:paper, a mesh by caveclod, caveclod:paper, "
-                   "caveclod:shared or discrete; default what the scene says, or the first. In the window M changes it, K shows "
+                   "caveclod:shared, discrete or lod-sprite; default what the scene says, or the first. In the window M changes "
+                   "it, K shows "
                    "what lod-sprite takes from where")
         ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,

@@ -28,9 +28,7 @@ struct Stage {
     caveclod::Drawing drawing;
 
     explicit Stage(const synthetic::Source& source)
-        : hierarchy(synthetic::bake(source)),
-          mesh(*caveclod::Mesh::make(hierarchy)),
-          drawing(*caveclod::Drawing::make(mesh)) {}
+        : hierarchy(synthetic::bake(source)), mesh(*caveclod::Mesh::make(hierarchy)), drawing(*caveclod::Drawing::make(mesh)) {}
 
     std::unique_ptr<FrameDrawer> frames(const FrameOptions& options = {}) const {
         auto thing = std::make_unique<lod_sprite::DrawnMesh>(mesh, drawing, caveclod::DrawOptions());
@@ -82,7 +80,9 @@ struct Difference {
 Difference difference(const ImageRgb8& a, const ImageRgb8& b, const ImageRgb8& behind) {
     Difference found;
     for (size_t i = 0; i < a.pixels.size(); i += 3) {
-        auto is_behind = [&](const ImageRgb8& image) { return std::equal(&image.pixels[i], &image.pixels[i] + 3, &behind.pixels[i]); };
+        auto is_behind = [&](const ImageRgb8& image) {
+            return std::equal(&image.pixels[i], &image.pixels[i] + 3, &behind.pixels[i]);
+        };
         found.outline_share += is_behind(a) != is_behind(b);
         for (size_t k = i; k < i + 3; ++k) found.mean_levels += std::abs(int(a.pixels[k]) - int(b.pixels[k])) / 3.0;
     }

@@ -19,7 +19,8 @@ lod_sprite::FrameOptions options_of(const MethodSpec& spec) {
 }
 
 std::unique_ptr<lod_sprite::DrawnGeometry> thing_of(World& world) {
-    if (world.is_mesh()) return std::make_unique<lod_sprite::DrawnMesh>(*world.mesh->mesh, *world.mesh->drawing, world.mesh->look);
+    if (world.is_mesh())
+        return std::make_unique<lod_sprite::DrawnMesh>(*world.mesh->mesh, *world.mesh->drawing, world.mesh->look);
     return std::make_unique<lod_sprite::DrawnTerrain>(*world.refiner, *world.drawing, world.look);
 }
 

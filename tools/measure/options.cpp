@@ -75,7 +75,8 @@ void add_options(CLI::App& app, Options& options) {
            "terrain:hard, whose levels pop (error-px, samples, triangles); lod-sprite (error-px of keys, low-error-px, "
            "key-error-px, samples, keyframe=at-once|thread|sliced: how keys are made; and its remedies, each to be switched "
            "off); lod-sprite:paper, as published (error-px, "
-           "low-error-px, key-error-px, depth-thickness, eye-depth, strips, samples); of meshes: caveclod (error-px, samples, triangles, "
+           "low-error-px, key-error-px, depth-thickness, eye-depth, strips, samples); of meshes: lod-sprite as well; caveclod "
+           "(error-px, samples, triangles, "
            "operations, cameras that refine at once, glide-s, silhouette-px and others); caveclod:paper, as published, and "
            "caveclod:shared, one refinement for all cameras (error-px, cameras, samples); discrete, levels for the whole mesh "
            "(error-px, samples); of both: full (samples)")
