@@ -3,7 +3,6 @@
 #include <cassert>
 
 #include "formats/caveclod.h"
-#include "runtime/caveclod/near_plane.h"
 #include "runtime/caveclod/static_levels.h"
 #include "runtime/gl/timer.h"
 #include "runtime/lod_sprite/draw_on_mesh.h"
@@ -30,16 +29,13 @@ class MeshSubject : public MeshRoom {
         assert(drawing_.has_value());
         FrameRecord record;
         record.asked_error_px = style.error_px;
-        bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
-        if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));
-        last_method_ = style.method;
-        last_error_px_ = style.error_px;
         if (style.method == Method::lod_sprite) {
-            if (Result<void> ready = ready_sprite(style); !ready) return tl::unexpected(ready.error());
-            view::Camera far_plane = caveclod::with_far_near_plane(mesh_, camera);
-            if (Result<void> drawn = draw_sprite(*sprite_, target, far_plane, record); !drawn) return tl::unexpected(drawn.error());
+            auto make_thing = [&] { return std::make_unique<lod_sprite::DrawnMesh>(mesh_, *drawing_, caveclod::DrawOptions()); };
+            Result<void> drawn = sprite_.draw(target, camera, style, make_thing, second_context_, record);
+            if (!drawn) return tl::unexpected(drawn.error());
             return record;
         }
+        sprite_.pause();
         if (style.method == Method::discrete) {
             draw_level(target, camera, style, record);
             return record;
@@ -63,18 +59,6 @@ class MeshSubject : public MeshRoom {
 
   private:
     const caveclod::Mesh& mesh() const override { return mesh_; }
-
-    // Whoever draws sprites on it, with this error.
-    Result<void> ready_sprite(const FrameStyle& style) {
-        if (!sprite_) {
-            auto thing = std::make_unique<lod_sprite::DrawnMesh>(mesh_, *drawing_, caveclod::DrawOptions());
-            auto made = lod_sprite::FrameDrawer::make(std::move(thing), with_error(layer_.sprite, style.error_px), second_context_);
-            if (!made) return tl::unexpected(made.error());
-            sprite_ = std::move(*made);
-        }
-        sprite_->show_sources(style.shows_sources || layer_.sprite.draw.shows_sources);
-        return {};
-    }
 
     void draw_level(const gl::Target& target, const view::Camera& camera, const FrameStyle& style, FrameRecord& record) {
         gl::Timer choosing;
@@ -104,9 +88,7 @@ class MeshSubject : public MeshRoom {
     std::optional<caveclod::StaticLevels> levels_;   // once they were drawn with
     std::vector<std::unique_ptr<caveclod::CameraBuffers>> level_buffers_;
     gl::SecondContextMaker second_context_;
-    std::unique_ptr<lod_sprite::FrameDrawer> sprite_;  // once it was drawn with
-    Method last_method_ = Method::caveclod;            // of the frame before
-    double last_error_px_ = 0;
+    SpriteDrawing sprite_{layer_.sprite};
 };
 
 }  // namespace

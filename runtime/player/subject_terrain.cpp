@@ -43,46 +43,39 @@ class TerrainSubject : public Subject {
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
         assert(drawing_.has_value());
         view::Camera local = terrain::with_clear_near_plane(terrain_, camera);
-        bool goes_on = style.method == last_method_ && style.error_px == last_error_px_;
+        bool goes_on = style.method == Method::lod_sprite_paper && style.error_px == paper_error_px_;
         if (!goes_on) paper_.reset();
-        if (!goes_on && style.method == Method::lod_sprite && sprite_) sprite_->change(with_error(layer_.sprite, style.error_px));
-        last_method_ = style.method;
-        last_error_px_ = style.error_px;
+        if (style.method != Method::lod_sprite) sprite_.pause();
 
         FrameRecord record;
         record.asked_error_px = style.error_px;
+        Result<void> drawn;
         if (style.method == Method::terrain) {
             draw_triangles(target, local, style, record);
-            return record;
+        } else if (style.method == Method::lod_sprite) {
+            auto make_thing = [&] { return std::make_unique<lod_sprite::DrawnTerrain>(refiner_, *drawing_, sprite_look(style)); };
+            drawn = sprite_.draw(target, local, style, make_thing, second_context_, record);
+        } else {
+            ready_paper(style);
+            drawn = draw_sprite(*paper_, target, local, record);
         }
-        Result<void> ready = ready_sprite(style);
-        if (!ready) return tl::unexpected(ready.error());
-        Result<void> drawn = style.method == Method::lod_sprite ? draw_sprite(*sprite_, target, local, record)
-                                                                : draw_sprite(*paper_, target, local, record);
         if (!drawn) return tl::unexpected(drawn.error());
         return record;
     }
 
   private:
-    // Whoever draws this method's sprites, with this error.
-    Result<void> ready_sprite(const FrameStyle& style) {
+    static terrain::DrawOptions sprite_look(const FrameStyle& style) {
         terrain::DrawOptions look = style.look;
         look.look = terrain::Look::shaded;
-        if (style.method == Method::lod_sprite_paper) {
-            if (paper_) return {};
-            lod_sprite::paper::FrameOptions options = with_error(layer_.paper, style.error_px);
-            options.look = look;
-            paper_ = std::make_unique<lod_sprite::paper::FrameDrawer>(terrain_, refiner_, *drawing_, options);
-            return {};
-        }
-        if (!sprite_) {
-            auto thing = std::make_unique<lod_sprite::DrawnTerrain>(refiner_, *drawing_, look);
-            auto made = lod_sprite::FrameDrawer::make(std::move(thing), with_error(layer_.sprite, style.error_px), second_context_);
-            if (!made) return tl::unexpected(made.error());
-            sprite_ = std::move(*made);
-        }
-        sprite_->show_sources(style.shows_sources || layer_.sprite.draw.shows_sources);
-        return {};
+        return look;
+    }
+
+    void ready_paper(const FrameStyle& style) {
+        if (paper_) return;
+        lod_sprite::paper::FrameOptions options = with_error(layer_.paper, style.error_px);
+        options.look = sprite_look(style);
+        paper_ = std::make_unique<lod_sprite::paper::FrameDrawer>(terrain_, refiner_, *drawing_, options);
+        paper_error_px_ = style.error_px;
     }
 
     void draw_triangles(const gl::Target& target, const view::Camera& local, const FrameStyle& style, FrameRecord& record) {
@@ -99,10 +92,9 @@ class TerrainSubject : public Subject {
     gl::SecondContextMaker second_context_;
     std::optional<terrain::Drawing> drawing_;
     terrain::Cut cut_;
-    std::unique_ptr<lod_sprite::FrameDrawer> sprite_;        // once it was drawn with
+    SpriteDrawing sprite_{layer_.sprite};
     std::unique_ptr<lod_sprite::paper::FrameDrawer> paper_;  // while it is drawn with
-    Method last_method_ = Method::terrain;                   // of the frame before
-    double last_error_px_ = 0;
+    double paper_error_px_ = 0;
 };
 
 }  // namespace
