@@ -21,8 +21,7 @@ BasicScreenTest<Bounds>::BasicScreenTest(const Terrain& terrain, const Bounds& b
       far_(detail.error_px, detail.morph),
       near_(detail.near_error_px, detail.morph),
       near_depth_m_(detail.near_depth_m),
-      finer_in_(detail.finer_in),
-      has_finer_part_(!detail.finer_in.is_empty()) {
+      finer_in_(camera, detail.finer_in) {
     for (uint32_t x = 0; x <= last_column_; ++x) column_x_.push_back(x * terrain.frame.metres_per_column - camera.position_m.x);
     for (uint32_t y = 0; y <= last_row_; ++y) row_y_.push_back(-(y * terrain.frame.metres_per_row) - camera.position_m.y);
 
@@ -43,7 +42,6 @@ BasicScreenTest<Bounds>::BasicScreenTest(const Terrain& terrain, const Bounds& b
     }
 
     double focal = view::focal_px(camera);
-    share_per_tangent_x_ = focal / camera.width_px, share_per_tangent_y_ = focal / camera.height_px;
     axis_rise_ = std::abs(axes.forward.z);
     double corner = view::corner_secant(camera);
     corner_squared_ = corner * corner, corner_cosine_ = 1 / corner;

@@ -151,17 +151,9 @@ class BasicScreenTest {
     // Asked last what costs most, and only where it changes anything.
     bool is_near_enough(const Box& box, const PixelBound& bound) const {
         if (bound.depth_m < near_depth_m_ || !is_wholly_seen(box)) return true;
-        return has_finer_part_ && !bound.is_within(near_.enter_squared) && touches_finer_part(box);
-    }
-
-    // The box lies between these slopes to the camera's axis.
-    bool touches_finer_part(const Box& box) const {
-        double nearest = std::max(forward_.least(box), near_m_), farthest = std::max(forward_.greatest(box), near_m_);
-        auto least = [&](double side) { return side / (side > 0 ? farthest : nearest); };
-        auto greatest = [&](double side) { return side / (side > 0 ? nearest : farthest); };
-        return finer_in_.is_touched(
-            0.5 + share_per_tangent_x_ * least(right_.least(box)), 0.5 + share_per_tangent_x_ * greatest(right_.greatest(box)),
-            0.5 - share_per_tangent_y_ * greatest(up_.greatest(box)), 0.5 - share_per_tangent_y_ * least(up_.least(box)));
+        if (finer_in_.is_empty() || bound.is_within(near_.enter_squared)) return false;
+        auto extent = [&](const Direction& d) { return view::Range{d.least(box), d.greatest(box)}; };
+        return finer_in_.is_touched(extent(right_), extent(up_), extent(forward_));
     }
 
     static void keep_greatest(double& predicted_squared, const PixelBound& bound) {
@@ -199,9 +191,7 @@ class BasicScreenTest {
     };
     Limits far_, near_;
     double near_depth_m_;
-    view::PictureMask finer_in_;
-    bool has_finer_part_;
-    double share_per_tangent_x_, share_per_tangent_y_;
+    view::MaskOnScreen finer_in_;
     bool morphs_;
     double error_m_[256];
     bool finest_error_is_zero_;

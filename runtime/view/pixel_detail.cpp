@@ -4,14 +4,24 @@
 
 namespace overlook::view {
 
-FinerParts::FinerParts(const Camera& camera, const PixelDetail& detail)
-    : error_px_(detail.near_error_px),
-      near_depth_m_(detail.near_depth_m),
+MaskOnScreen::MaskOnScreen(const Camera& camera, const PictureMask& mask)
+    : mask_(mask),
+      is_empty_(mask.is_empty()),
       near_m_(camera.near_m),
-      finer_in_(detail.finer_in),
-      has_mask_(!detail.finer_in.is_empty()),
       share_per_tangent_x_(focal_px(camera) / camera.width_px),
-      share_per_tangent_y_(focal_px(camera) / camera.height_px) {
+      share_per_tangent_y_(focal_px(camera) / camera.height_px) {}
+
+// It lies between these slopes to the camera's axis.
+bool MaskOnScreen::is_touched(const Range& right, const Range& up, const Range& forward) const {
+    double nearest = std::max(forward.low, near_m_), farthest = std::max(forward.high, near_m_);
+    auto least = [&](double side) { return side / (side > 0 ? farthest : nearest); };
+    auto greatest = [&](double side) { return side / (side > 0 ? nearest : farthest); };
+    return mask_.is_touched(0.5 + share_per_tangent_x_ * least(right.low), 0.5 + share_per_tangent_x_ * greatest(right.high),
+                            0.5 - share_per_tangent_y_ * greatest(up.high), 0.5 - share_per_tangent_y_ * least(up.low));
+}
+
+FinerParts::FinerParts(const Camera& camera, const PixelDetail& detail)
+    : error_px_(detail.near_error_px), near_depth_m_(detail.near_depth_m), finer_in_(camera, detail.finer_in) {
     if (!detail.seen_by) return;
     Axes axes = axes_of(camera);
     glm::dvec3 away_m = detail.seen_by->position_m - camera.position_m;
@@ -27,18 +37,8 @@ bool FinerParts::touch(const SphereErrorBound::Place& middle, double radius_m) c
     glm::dvec3 at_m(middle.right, middle.up, middle.forward);
     for (uint32_t i = 0; i < side_count_; ++i)
         if (glm::dot(sides_[i].inwards, at_m) - sides_[i].length * radius_m < sides_[i].offset_m) return true;
-    return has_mask_ && touch_mask(middle, radius_m);
-}
-
-// The sphere lies between these slopes to the camera's axis, as its box does.
-bool FinerParts::touch_mask(const SphereErrorBound::Place& middle, double radius_m) const {
-    double nearest = std::max(middle.forward - radius_m, near_m_), farthest = std::max(middle.forward + radius_m, near_m_);
-    auto least = [&](double side) { return side / (side > 0 ? farthest : nearest); };
-    auto greatest = [&](double side) { return side / (side > 0 ? nearest : farthest); };
-    return finer_in_.is_touched(0.5 + share_per_tangent_x_ * least(middle.right - radius_m),
-                                0.5 + share_per_tangent_x_ * greatest(middle.right + radius_m),
-                                0.5 - share_per_tangent_y_ * greatest(middle.up + radius_m),
-                                0.5 - share_per_tangent_y_ * least(middle.up - radius_m));
+    auto round = [&](double at) { return Range{at - radius_m, at + radius_m}; };
+    return !finer_in_.is_empty() && finer_in_.is_touched(round(middle.right), round(middle.up), round(middle.forward));
 }
 
 }  // namespace overlook::view

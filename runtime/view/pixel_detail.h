@@ -25,12 +25,29 @@ struct PixelDetail {
     bool keeps_outlines = false;
 };
 
+struct Range {
+    double low = 0, high = 0;
+};
+
+// May what lies between these, along a camera's right, up and forward axes, come into a marked part of its picture?
+class MaskOnScreen {
+  public:
+    MaskOnScreen(const Camera& camera, const PictureMask& mask);
+    bool is_empty() const { return is_empty_; }
+    bool is_touched(const Range& right, const Range& up, const Range& forward) const;
+
+  private:
+    PictureMask mask_;
+    bool is_empty_;
+    double near_m_, share_per_tangent_x_, share_per_tangent_y_;
+};
+
 // Which spheres may come into the parts that are to be finer, for one camera.
 class FinerParts {
   public:
     FinerParts(const Camera& camera, const PixelDetail& detail);
 
-    bool is_empty() const { return near_depth_m_ <= 0 && side_count_ == 0 && !has_mask_; }
+    bool is_empty() const { return near_depth_m_ <= 0 && side_count_ == 0 && finer_in_.is_empty(); }
     double error_px() const { return error_px_; }  // of these parts
     // True of a sphere if it is of another within it. middle: in the camera's axes; radius_m >= 0.
     bool touch(const SphereErrorBound::Place& middle, double radius_m) const;
@@ -40,14 +57,10 @@ class FinerParts {
         glm::dvec3 inwards{0};  // in the camera's axes
         double length = 0, offset_m = 0;
     };
-    bool touch_mask(const SphereErrorBound::Place& middle, double radius_m) const;
-
-    double error_px_, near_depth_m_, near_m_;
+    double error_px_, near_depth_m_;
     uint32_t side_count_ = 0;  // of what another camera sees
     std::array<Side, 4> sides_;
-    PictureMask finer_in_;
-    bool has_mask_;
-    double share_per_tangent_x_, share_per_tangent_y_;
+    MaskOnScreen finer_in_;
 };
 
 }  // namespace overlook::view
