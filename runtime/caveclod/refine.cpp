@@ -209,6 +209,7 @@ FrameReport Refinement::refine(const view::Camera& camera, const Settings& setti
     frame.keeps_reserve = settings.most_triangles > 0 && faces_.face_count() * 8 > settings.most_triangles * 7;
     splits_.clear(), collapses_.clear(), reserve_.clear();
     advance_glides(frame, dt_s);
+    if (settings.collapse_share == 1) undo_unwanted(frame);
     evaluate_all(frame);
     operate(frame);
     frame.report.triangle_count = faces_.face_count();

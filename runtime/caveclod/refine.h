@@ -119,6 +119,7 @@ class Refinement {
     void evaluate(Frame& frame, uint32_t split);
     void evaluate_all(Frame& frame);
     void operate(Frame& frame);
+    void undo_unwanted(Frame& frame);
     bool split_next(Frame& frame);
     bool collapse_next(Frame& frame);
     bool make_room(Frame& frame, double error_px);

@@ -17,8 +17,8 @@ struct Settings {
     double error_px = 1;
     // The same of what may lie on an outline, by its normals; 0: the same as error_px; at most that.
     double silhouette_error_px = 0;
-    // What is split is collapsed again under this share of it: between the two nothing changes. 0..kGlideEnter; up to 1 where
-    // nothing glides.
+    // What is split is collapsed again under this share of it: between the two nothing changes. 0..kGlideEnter. Or 1,
+    // where nothing glides: then the cut depends on the camera alone, once it is settled, and all that is applied is looked at.
     double collapse_share = 0.7;
     // What comes into view this far beyond the frame's borders is split already; one and a half times that far it is kept. 0..60.
     double guard_deg = 10;

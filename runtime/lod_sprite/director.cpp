@@ -86,7 +86,7 @@ bool Director::is_served(const view::Camera& camera) const {
 // Whether the camera has jumped.
 bool Director::begin_frame(const view::Camera& camera) {
     is_begun_ = true;
-    camera_ = camera;
+    camera_ = geometry_.with_near_plane(camera);
     bool has_jumped = track_.add(camera);
     slice_triangles_ = 0;
     took_over_ = Cause::none;

@@ -89,6 +89,7 @@ class Director {
     // triangle_count: of a key that another thread drew.
     void key_done(DepthGrid depths, uint64_t triangle_count = 0);
     const Novel& novel();
+    const view::Camera& camera() const { return camera_; }  // of the frame, its near plane as the geometry has it
     void forget();
     // From the next frame on, instead of Settings::triangles.
     void set_triangles(double triangles) { spending_.set_triangles(triangles); }

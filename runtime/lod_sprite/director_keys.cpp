@@ -65,7 +65,7 @@ void Director::begin_key(const view::Camera& pose, Cause cause) {
     Slot& into = slots_[slot];
     into.is_whole = into.is_fresh = false;
     into.cause = cause;
-    into.key.camera = key_camera(pose, settings_.guard);
+    into.key.camera = geometry_.with_near_plane(key_camera(pose, settings_.guard));
     into.key.scale = settings_.scale;
     into.key.error_px = key_cut_px();
     making_.emplace();
@@ -118,7 +118,7 @@ bool Director::is_key_begun() {
     bool is_served_now = current_ && serves(current_reuse_);
     if (settings_.mode == KeyMode::at_once) {
         if (is_served_now) return false;
-        begin_key(camera_, cause_now());
+        begin_key(track_.predicted(0), cause_now());
         return true;
     }
     uint32_t left = frames_left();

@@ -134,6 +134,36 @@ void FrameDrawer::forget() {
     plan_ = nullptr;
 }
 
+Result<void> FrameDrawer::prepare(const view::Camera& camera, const gl::Target& target) {
+    Result<void> drawn = rehearse(thing_->geometry().with_near_plane(camera), target);
+    forget();
+    return drawn;
+}
+
+// With no key, one and two of them, each as it stands and as it fades.
+Result<void> FrameDrawer::rehearse(const view::Camera& camera, const gl::Target& target) {
+    Geometry& geometry = thing_->geometry();
+    geometry.cut_coarse(camera, {settings_.low_error_px, settings_.morph, 0, settings_.error_px});
+    thing_->take_coarse(geometry.put_near_first(camera, 0));
+    for (uint32_t slot = 0; slot < 2; ++slot) {
+        Result<void> begun = painter_->begin_key(slot, key_camera(camera, settings_.guard), settings_.scale);
+        if (!begun) return begun;
+        painter_->draw_into_key(slot, thing_->far());
+        painter_->finish_key(slot, thing_->far());
+    }
+    for (uint32_t key_count = 0; key_count <= 2; ++key_count) {
+        NovelOptions options = novel_;
+        options.keys.clear();
+        for (uint32_t slot = 0; slot < key_count; ++slot) options.keys.push_back({slot, 1});
+        for (double own_weight : {0.0, 0.5}) {
+            options.own_weight = own_weight;
+            Result<void> drawn = painter_->draw(target, &thing_->far(), thing_->far(), camera, options);
+            if (!drawn) return drawn;
+        }
+    }
+    return {};
+}
+
 void FrameDrawer::decide(const view::Camera& camera) {
     bool is_resized = camera.width_px != camera_.width_px || camera.height_px != camera_.height_px;
     if (is_resized) forget();
@@ -165,7 +195,7 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target) {
 Result<void> FrameDrawer::paint(const gl::Target& target, const NovelOptions& options) {
     uploaded_bytes_ = thing_->take_coarse(plan_->near_triangle_count);  // others may have drawn the thing meanwhile
     gl::Surface* near = plan_->near_triangle_count > 0 ? &thing_->near() : nullptr;
-    return painter_->draw(target, near, thing_->far(), camera_, options);
+    return painter_->draw(target, near, thing_->far(), director_->camera(), options);
 }
 
 std::vector<view::Camera> FrameDrawer::texel_cameras() const {

@@ -58,6 +58,9 @@ class FrameDrawer {
     FrameDrawer(const FrameDrawer&) = delete;
     FrameDrawer& operator=(const FrameDrawer&) = delete;
 
+    // Draws, for nobody to see, with every program that frames like this one may need: renderers compile where they first draw.
+    // Before the first frame; the frames are the same as without. Fails as draw().
+    Result<void> prepare(const view::Camera& camera, const gl::Target& target);
     // camera: in the thing's own frame, of the size of the target. Another size than the frame's before forgets all keys.
     void decide(const view::Camera& camera);
     // Draws and resolves; need not wait until it is drawn. Fails as Painter::begin_key and Painter::draw.
@@ -80,6 +83,7 @@ class FrameDrawer {
   private:
     FrameDrawer(std::unique_ptr<DrawnGeometry> thing, const FrameOptions& options);
     void settle(const FrameOptions& options);
+    Result<void> rehearse(const view::Camera& camera, const gl::Target& target);
     Result<void> draw_key();
     Result<void> draw_slice();
     Result<void> draw_beside();

@@ -1,20 +1,6 @@
 #include "runtime/lod_sprite/draw_on_mesh.h"
 
 namespace overlook::lod_sprite {
-namespace {
-
-// With a drawing of its own. A base, so that it is there before what draws with it.
-struct OwnDrawing {
-    caveclod::Drawing own;
-};
-class SharingMesh : private OwnDrawing, public DrawnMesh {
-  public:
-    SharingMesh(const caveclod::Mesh& mesh, caveclod::Drawing drawing, const caveclod::DrawOptions& look)
-        : OwnDrawing{std::move(drawing)}, DrawnMesh(mesh, own, look) {}
-};
-
-}  // namespace
-
 DrawnMesh::DrawnMesh(const caveclod::Mesh& mesh, const caveclod::Drawing& drawing, const caveclod::DrawOptions& look)
     : mesh_(mesh),
       drawing_(drawing),
@@ -42,7 +28,8 @@ uint64_t DrawnMesh::take_coarse(uint64_t) {
 Result<std::unique_ptr<DrawnGeometry>> DrawnMesh::sharing() const {
     Result<caveclod::Drawing> own = caveclod::Drawing::sharing(drawing_);
     if (!own) return tl::unexpected(own.error());
-    return std::make_unique<SharingMesh>(mesh_, std::move(*own), look_);
+    auto drawing = std::make_unique<caveclod::Drawing>(std::move(*own));
+    return std::unique_ptr<DrawnGeometry>(new DrawnMesh(mesh_, std::move(drawing), look_));
 }
 
 }  // namespace overlook::lod_sprite

@@ -23,6 +23,12 @@ class DrawnMesh : public DrawnGeometry {
     Result<std::unique_ptr<DrawnGeometry>> sharing() const override;
 
   private:
+    DrawnMesh(const caveclod::Mesh& mesh, std::unique_ptr<caveclod::Drawing> own, const caveclod::DrawOptions& look)
+        : DrawnMesh(mesh, *own, look) {
+        own_ = std::move(own);
+    }
+
+    std::unique_ptr<caveclod::Drawing> own_;  // of one that shares another's
     const caveclod::Mesh& mesh_;
     const caveclod::Drawing& drawing_;
     caveclod::DrawOptions look_;

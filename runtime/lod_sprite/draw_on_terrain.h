@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "runtime/lod_sprite/draw_geometry.h"
 #include "runtime/lod_sprite/on_terrain.h"
@@ -33,6 +32,12 @@ class DrawnTerrain : public DrawnGeometry {
     Result<std::unique_ptr<DrawnGeometry>> sharing() const override;
 
   private:
+    DrawnTerrain(const terrain::Refiner& refiner, std::unique_ptr<terrain::Drawing> own, const terrain::DrawOptions& look)
+        : DrawnTerrain(refiner, *own, look) {
+        own_ = std::move(own);
+    }
+
+    std::unique_ptr<terrain::Drawing> own_;  // of one that shares another's
     TerrainGeometry geometry_;
     terrain::Drawing& ground_;
     terrain::DrawOptions look_;

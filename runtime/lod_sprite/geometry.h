@@ -19,6 +19,9 @@ class Geometry {
   public:
     virtual ~Geometry() = default;
 
+    // The camera with its near plane where it cuts nothing off for certain, and where depths as shares of it have room.
+    virtual view::Camera with_near_plane(const view::Camera& camera) const = 0;
+
     // Settles the coarse cut: within each part's error of the finest that there is.
     virtual CutCount cut_coarse(const view::Camera& camera, const view::PixelDetail& detail) = 0;
     // To be called for every coarse cut, once: of its triangles those all of whose corners are nearer than near_depth_m >= 0,

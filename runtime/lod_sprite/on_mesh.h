@@ -4,16 +4,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/caveclod/near_plane.h"
 #include "runtime/caveclod/refine.h"
 #include "runtime/lod_sprite/geometry.h"
 
 namespace overlook::lod_sprite {
 
-// Two refinements of it, one for novel frames and one for keys; each goes on from the cut before.
+// Two refinements of it, one for novel frames and one for keys. Each goes on from the cut before, but what it comes to depends on the
+// camera alone.
 class MeshGeometry : public Geometry {
   public:
     explicit MeshGeometry(const caveclod::Mesh& mesh);  // must outlive it
 
+    view::Camera with_near_plane(const view::Camera& camera) const override {
+        return caveclod::with_far_near_plane(mesh_, camera);
+    }
     CutCount cut_coarse(const view::Camera& camera, const view::PixelDetail& detail) override;
     uint64_t put_near_first(const view::Camera& camera, double near_depth_m) override;
     void begin_key(const view::Camera& camera, double error_px) override;

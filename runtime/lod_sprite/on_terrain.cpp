@@ -2,7 +2,13 @@
 
 #include <algorithm>
 
+#include "runtime/terrain/near_plane.h"
+
 namespace overlook::lod_sprite {
+
+view::Camera TerrainGeometry::with_near_plane(const view::Camera& camera) const {
+    return terrain::with_clear_near_plane(refiner_.terrain(), camera);
+}
 
 CutCount TerrainGeometry::cut_coarse(const view::Camera& camera, const view::PixelDetail& detail) {
     refiner_.cut_by_pixels(camera, detail, coarse_);

@@ -13,6 +13,7 @@ class TerrainGeometry : public Geometry {
   public:
     explicit TerrainGeometry(const terrain::Refiner& refiner) : refiner_(refiner) {}  // must outlive it
 
+    view::Camera with_near_plane(const view::Camera& camera) const override;
     CutCount cut_coarse(const view::Camera& camera, const view::PixelDetail& detail) override;
     uint64_t put_near_first(const view::Camera& camera, double near_depth_m) override;
     void begin_key(const view::Camera& camera, double error_px) override { key_.emplace(refiner_, camera, error_px); }

@@ -277,6 +277,9 @@ double SlicedCut::share_done() const {
     return double(impl_->done_count) / double(impl_->pieces.size());
 }
 
+const Terrain& Refiner::terrain() const {
+    return impl_->terrain;
+}
 double Refiner::lowest_m() const {
     return impl_->bounds.whole().low_m;
 }

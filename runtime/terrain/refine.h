@@ -76,6 +76,7 @@ class Refiner {
     // Where a vertex of a cut is drawn, metres in the terrain's frame. index: one of the cut's.
     glm::dvec3 vertex_m(const Cut& cut, uint32_t index) const;
 
+    const Terrain& terrain() const;
     // Heights of the terrain's lowest and highest valid sample, metres.
     double lowest_m() const;
     double highest_m() const;

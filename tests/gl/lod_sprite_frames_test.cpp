@@ -108,6 +108,22 @@ TEST(LodSpriteFrames, BeginWithoutAKeyAndSayWhenOneTakesOver) {
     EXPECT_GT(key_triangles, 0u);
 }
 
+TEST(LodSpriteFrames, AreTheSameWhetherPreparedOrNot) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Stage stage;
+    auto prepared = stage.frames(fine_options()), fresh = stage.frames(fine_options());
+    gl::Target one = target_of(), other = target_of();
+    ASSERT_TRUE(prepared->prepare(stage.camera(7), one));
+    uint32_t with_two = 0;
+    for (uint32_t frame = 0; frame < 60; ++frame) {
+        FrameCounts a = draw(*prepared, stage.camera(frame), one), b = draw(*fresh, stage.camera(frame), other);
+        ASSERT_EQ(one.read().pixels, other.read().pixels) << frame;
+        ASSERT_EQ(a.triangle_count, b.triangle_count) << frame;
+        with_two += a.used_key_count == 2;
+    }
+    EXPECT_GT(with_two, 0u);
+}
+
 TEST(LodSpriteFrames, CountWhatEveryPassSubmits) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Stage stage;

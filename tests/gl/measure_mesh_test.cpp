@@ -61,13 +61,16 @@ TEST(MeasuredMesh, KeepsItsPromisesInEveryVariant) {
     }
 }
 
-// Keys show the mesh as finely as its own triangles do, on a cut that has far fewer.
+// Keys show the mesh as finely as its own triangles do, on a cut that by itself would be seen to be far coarser.
 TEST(MeasuredMesh, IsShownBySpritesAsWell) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
-    Torus torus({"lod-sprite@keyframe=at-once@samples=1", "caveclod@samples=1"});
+    Torus torus({"lod-sprite@keyframe=at-once@samples=1", "caveclod@samples=1", "caveclod@error-px=16@samples=1"});
     CourseResult result = torus.run(context->renderer());
     const RunResult& sprite = result.runs[0];
     ASSERT_EQ(sprite.frames.size(), 6u);
+    auto error_of = [&](size_t run) { return *result.runs[run].frames[0].numbers.e_mean; };
+    EXPECT_LT(error_of(0), 1.5 * error_of(1));
+    EXPECT_GT(error_of(2), 2 * error_of(1));
     for (const FrameRecord& frame : sprite.frames) {
         SCOPED_TRACE(frame.frame);
         EXPECT_EQ(*frame.numbers.hole_count, 0);

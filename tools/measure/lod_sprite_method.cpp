@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "runtime/caveclod/near_plane.h"
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/lod_sprite/draw_on_mesh.h"
 #include "runtime/lod_sprite/draw_on_terrain.h"
@@ -32,9 +31,11 @@ class LodSprite : public Method {
         frames_ = std::move(*frames);
     }
 
-    void decide(const view::Camera& camera, uint32_t) override {
-        frames_->decide(world_.is_mesh() ? caveclod::with_far_near_plane(*world_.mesh->mesh, camera) : camera);
+    void prepare(const view::Camera& camera, const gl::Target& target) override {
+        [[maybe_unused]] Result<void> prepared = frames_->prepare(camera, target);
+        assert(prepared);
     }
+    void decide(const view::Camera& camera, uint32_t) override { frames_->decide(camera); }
 
     bool set_triangles(double triangles) override {
         frames_->set_triangles(triangles);

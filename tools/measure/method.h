@@ -46,6 +46,12 @@ struct Sources {
 class Method {
   public:
     virtual ~Method() = default;
+    // Before the first frame: whatever later frames would do once, for a camera and a target like theirs, which is drawn over. They are
+    // the same as without.
+    virtual void prepare(const view::Camera& camera, const gl::Target& target) {
+        static_cast<void>(camera);
+        static_cast<void>(target);
+    }
     // Settles what is drawn of this frame. camera: its size is the picture's. frame: from 0, one logical step apart.
     virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
     // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.

@@ -104,6 +104,7 @@ class Field {
         std::unique_ptr<Method> method = make_method(results[run].spec, world);
         method->decide(camera, 0);
         method->draw(*runs[run].target);
+        runs[run].method->prepare(camera, *runs[run].target);
         glFinish();
     }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "runtime/lod_sprite/director.h"
 #include "runtime/view/pixel_error.h"
 #include "tests/caveclod/flights.h"
 #include "tests/caveclod/synthetic_hierarchy.h"
@@ -57,6 +58,24 @@ Triangles faces_of(const caveclod::FaceSlots& faces, uint64_t first = 0, uint64_
                 if (at >= first && at - first < count) triangles.insert({corners[0], corners[1], corners[2]});
             }
     return triangles;
+}
+
+TEST(MeshGeometry, DependsOnTheCameraAlone) {
+    MeshGeometry flown(thing().mesh);
+    for (int step = 0; step < 12; ++step) {
+        view::Camera camera = pose(1.5 * step - 8, 4.0 * step - 20);
+        view::PixelDetail detail{12, 0, 0, 1, {}, {}, step % 2 == 1};
+        if (step % 3 == 0) detail.near_depth_m = 24;
+        if (step % 3 == 1) detail.seen_by = pose(0);
+        MeshGeometry fresh(thing().mesh);
+        EXPECT_TRUE(coarse_of(flown, camera, detail) == coarse_of(fresh, camera, detail)) << step;
+
+        fresh.begin_key(camera, 0.7);
+        fresh.next_slice(std::numeric_limits<uint64_t>::max());
+        flown.begin_key(camera, 0.7);
+        while (!flown.next_slice(300).is_last) continue;
+        EXPECT_TRUE(faces_of(flown.key().faces()) == faces_of(fresh.key().faces())) << step;
+    }
 }
 
 // What could be split next and is not keeps the error of the part that it is in: so does the whole cut, since a split's error and
@@ -154,6 +173,35 @@ TEST(MeshGeometry, DrawsEachTriangleOfAKeyOnce) {
         EXPECT_GT(drawn.size(), 500u);
         EXPECT_EQ(drawn, faces_of(geometry.key().faces())) << step;
     }
+}
+
+// Of a camera that dives at it: keys are for places far ahead, where the frame's own near plane would cut the mesh away.
+TEST(MeshGeometry, IsNeverCutByAKeysNearPlane) {
+    MeshGeometry geometry(thing().mesh);
+    Settings settings;
+    Director director(geometry, settings);
+    auto distance_m = [&](const view::Camera& camera) {
+        return glm::distance(camera.position_m, glm::clamp(camera.position_m, thing().mesh.lowest_m(), thing().mesh.highest_m()));
+    };
+    uint32_t keys = 0, far_ahead = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        view::Camera camera = caveclod::flights::camera_at(24, -200 + 3.0 * frame, 3, 0, 0, 320, 240);
+        camera.near_m = 1e-4;
+        while (std::optional<KeyWork> work = director.key_work(camera)) {
+            if (work->begin != nullptr) {
+                ++keys;
+                const view::Camera& key = *work->begin;
+                EXPECT_LE(key.near_m * view::corner_secant(key), distance_m(key) + camera.near_m) << frame;
+                EXPECT_GE(key.near_m, camera.near_m);
+                far_ahead += distance_m(key) < 0.4 * distance_m(camera);
+            }
+            if (work->is_last) director.key_done({2, 2, std::vector<float>(4, float(distance_m(camera) + 20))});
+        }
+        director.novel();
+        EXPECT_LE(director.camera().near_m * view::corner_secant(director.camera()), distance_m(camera) + camera.near_m);
+    }
+    EXPECT_GE(keys, 3u);
+    EXPECT_GE(far_ahead, 1u);
 }
 
 TEST(MeshGeometry, SaysHowFarAnyCutMayBeOff) {
