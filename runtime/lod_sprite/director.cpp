@@ -17,7 +17,7 @@ Director::Director(Geometry& geometry, const Settings& settings)
 
 void Director::forget() {
     for (Slot& slot : slots_) slot.is_whole = false;
-    current_.reset(), before_.reset(), waiting_.reset(), making_.reset();
+    current_.reset(), before_.reset(), waiting_.reset(), next_.reset(), making_.reset();
     fade_left_ = 0;
     has_drawn_ = false;
     track_.forget();
@@ -45,7 +45,7 @@ double Director::key_cut_px() const {
 }
 
 bool Director::serves(const Reuse& reuse) const {
-    return reuse.error_p99_px <= most_error_px() && reuse.magnification_p99 <= settings_.most_magnified;
+    return reuse.error_p99_px <= most_error_px() && reuse.magnification_p99 <= settings_.most_texel_px();
 }
 
 void Director::take_over(uint32_t slot) {
@@ -56,10 +56,17 @@ void Director::take_over(uint32_t slot) {
         took_over_ = slots_[slot].cause;
         slots_[slot].is_fresh = false;
     }
+    // Back to the one that is being left: from where the fade has come to.
+    bool turns_back = fade_left_ > 0 && has_before() && *before_ == slot;
+    fade_left_ = turns_back ? settings_.fade_frames - fade_left_ : has_drawn_ ? settings_.fade_frames : 0;
     before_ = current_;
     use(slot);
-    fade_left_ = has_drawn_ ? settings_.fade_frames : 0;
     is_cut_ = false;
+}
+
+// Another key would break the fade off: only if need be.
+bool Director::is_fading() const {
+    return fade_left_ > 0 && current_ && serves(current_reuse_);
 }
 
 // A key from the cache, where the one in use no longer serves and another does: going to and fro costs nothing.
@@ -93,6 +100,10 @@ bool Director::begin_frame(const view::Camera& camera) {
     judge_keys();
     if (waiting_ && waiting_ != current_) take_over(*waiting_);
     waiting_.reset();
+    if (next_ && !is_fading()) {
+        if (next_ != current_) take_over(*next_);
+        next_.reset();
+    }
     if (spending_.is_limited()) cut_coarse();
     is_cut_ = spending_.is_limited();
     return has_jumped;
@@ -124,6 +135,8 @@ void Director::key_done(DepthGrid depths, uint64_t triangle_count) {
         // Where every triangle is spent already, the cut that belongs to this key is the next frame's.
         if (current_ && spends_all())
             waiting_ = making_->slot;
+        else if (is_fading())
+            next_ = making_->slot;
         else
             take_over(making_->slot);
     }

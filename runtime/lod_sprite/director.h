@@ -28,7 +28,7 @@ struct Settings {
     // A new key is due where the p99 of the bounded error passes this; keys promise 2/3 of it. A frame's own geometry keeps it
     // where no key shows what is there (or error_px, where that is more, but not more than low_error_px).
     double key_error_px = 1;
-    double most_magnified = 1.5;  // or the p99 of how many pixels wide a texel becomes
+    double most_grown = 1.6;  // or the p99 of how many times as wide a texel has become, > 1: more is seen to be blurred
     double guard = 1.15;
     uint32_t scale = 2;         // texels of a key a pixel, in both directions
     double texel_share = 0.25;  // keys keep no finer promise than so much of a texel, which could not show it; 0 = error_px
@@ -42,6 +42,8 @@ struct Settings {
     bool draws_near = true;      // what keys could not serve for their life is drawn as geometry
     // That a frame may draw, those into keys included (of sliced keys: spending.h); 0 = as many as its errors take.
     double triangles = 0;
+
+    double most_texel_px() const { return most_grown / scale; }  // of a frame
 };
 
 // Why a key is made.
@@ -124,7 +126,7 @@ class Director {
     std::optional<KeyWork> slice_work();
     std::optional<KeyWork> thread_work();
     Reuse reuse(uint32_t slot, const view::Camera& camera, const Shown* shown = nullptr) const;
-    Shown shown(uint32_t slot) const { return shown_by(slots_[slot].key, camera_, settings_.most_magnified); }
+    Shown shown(uint32_t slot) const { return shown_by(slots_[slot].key, camera_, settings_.most_texel_px()); }
     void use(uint32_t slot);
     bool has_before() const { return before_ && slots_[*before_].is_whole; }
     view::PictureMask open_parts() const;
@@ -133,6 +135,7 @@ class Director {
     bool spends_all() const;
     uint32_t frames_to_make(uint32_t left);
     bool serves(const Reuse& reuse) const;
+    bool is_fading() const;
     bool is_served(const view::Camera& camera) const;
     bool may_rest() const;
     uint32_t frames_left() const;
@@ -153,6 +156,7 @@ class Director {
     std::vector<Slot> slots_;
     std::optional<uint32_t> current_, before_;  // the key in use, and the one that it fades in over
     std::optional<uint32_t> waiting_;           // a whole one that takes over with the next frame
+    std::optional<uint32_t> next_;              // one that takes over when a fade is over
     uint32_t fade_left_ = 0;
     std::optional<Making> making_;
     Reuse current_reuse_;

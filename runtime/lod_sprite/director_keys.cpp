@@ -37,7 +37,7 @@ bool Director::may_rest() const {
 Cause Director::cause_now() const {
     if (!current_) return Cause::first;
     if (current_reuse_.lost_share() > kMostLost) return Cause::jump;
-    if (current_reuse_.magnification_p99 > settings_.most_magnified) return Cause::magnified;
+    if (current_reuse_.magnification_p99 > settings_.most_texel_px()) return Cause::magnified;
     return current_reuse_.outside_share > current_reuse_.opened_share ? Cause::turned : Cause::error;
 }
 
@@ -47,7 +47,8 @@ uint32_t Director::slot_to_empty() const {
     double worst_error = -1;
     for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
         if (!slots_[slot].is_whole) return slot;
-        bool is_used = waiting_ == slot || (current_ && *current_ == slot) || (before_ && *before_ == slot && slots_.size() > 2);
+        bool is_used = waiting_ == slot || next_ == slot || (current_ && *current_ == slot) ||
+                       (before_ && *before_ == slot && slots_.size() > 2);
         if (is_used) continue;
         Reuse found = reuse(slot, camera_);
         double error = slots_[slot].is_fresh ? 0 : found.error_p99_px + 1000 * found.lost_share();
@@ -62,6 +63,7 @@ uint32_t Director::slot_to_empty() const {
 void Director::begin_key(const view::Camera& pose, Cause cause) {
     uint32_t slot = slot_to_empty();
     if (before_ && *before_ == slot) before_.reset();
+    if (next_ && *next_ == slot) next_.reset();
     Slot& into = slots_[slot];
     into.is_whole = into.is_fresh = false;
     into.cause = cause;

@@ -33,9 +33,13 @@ bool sees_all(const view::Camera& key, const view::Camera& camera, double from_m
 // Of the picture, where the surface's own colours are seen: where no key that is looked into shows what is there, or where a key
 // fades in over none.
 view::PictureMask Director::open_parts() const {
-    std::vector<uint8_t> is_open = current_shown_.is_open;
+    auto opened = [&](Shown shown) {
+        if (novel_.near_depth_m > 0) open_beside_nearer(shown, novel_.near_depth_m);
+        return shown;
+    };
+    std::vector<uint8_t> is_open = opened(current_shown_).is_open;
     if (has_before()) {
-        Shown other = shown(*before_);
+        Shown other = opened(shown(*before_));
         for (size_t i = 0; i < is_open.size(); ++i) is_open[i] = (is_open[i] || fade_left_ > 0) && other.is_open[i];
     }
     return {current_shown_.columns, current_shown_.rows, is_open};
@@ -59,8 +63,7 @@ void Director::cut_coarse() {
     novel_.finer_outside.reset();
     novel_.finer_in = {};
     if (has_key && settings_.draws_near) {
-        double most_growth = std::max(1.1, settings_.most_magnified * settings_.scale);
-        novel_.near_depth_m = track_.speed_m() * life_frames_ / (most_growth - 1);
+        novel_.near_depth_m = track_.speed_m() * life_frames_ / (settings_.most_grown - 1);
     }
     if (has_key) {
         const view::Camera& asked = slots_[fade_left_ > 0 && has_before() ? *before_ : *current_].key.camera;

@@ -38,6 +38,7 @@ std::vector<KnownSetting> make_settings() {
         {whole("key-scale", 1, 4, is.decide.scale), [](Options& o, double v) { o.decide.scale = uint32_t(v); }},
         {number("texel-share", 0, 1, is.decide.texel_share, true), [](Options& o, double v) { o.decide.texel_share = v; }},
         {number("guard", 1, 3, is.decide.guard, true), [](Options& o, double v) { o.decide.guard = v; }},
+        {number("most-grown", 1.1, 100, is.decide.most_grown, true), [](Options& o, double v) { o.decide.most_grown = v; }},
         {whole("slots", 2, 16, is.decide.slots), [](Options& o, double v) { o.decide.slots = uint32_t(v); }},
         {whole("fade-frames", 0, 60, is.decide.fade_frames), [](Options& o, double v) { o.decide.fade_frames = uint32_t(v); }},
         {{"keyframe", 0, kKeyModes.size() - 1.0, double(is.decide.mode), true, true, false, kKeyModes},
@@ -109,7 +110,7 @@ void FrameDrawer::settle(const FrameOptions& options) {
     novel_ = options.draw;
     novel_.low_error_px = settings_.low_error_px;
     novel_.near_error_px = settings_.error_px;
-    novel_.most_texel_px = settings_.most_magnified;
+    novel_.most_texel_px = settings_.most_texel_px();
     novel_.most_slack_m = thing_->geometry().most_slack_m();
     forget();
 }

@@ -10,8 +10,8 @@
 
 namespace overlook::lod_sprite {
 
-// Two refinements of it, one for novel frames and one for keys. Each goes on from the cut before, but what it comes to depends on the
-// camera alone.
+// Two refinements of it, one for novel frames and one for keys. Each goes on from the cut before, but what it comes to depends on
+// the camera alone.
 class MeshGeometry : public Geometry {
   public:
     explicit MeshGeometry(const caveclod::Mesh& mesh);  // must outlive it

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "runtime/lod_sprite/projector.h"
 
@@ -33,7 +34,7 @@ class Canvas {
           width_px_(camera.width_px),
           height_px_(camera.height_px),
           states(size_t(columns) * rows),
-          inverse_depths_(states.size(), -1) {}
+          inverse_depths(states.size(), -1) {}
 
     void draw(const Corner& a, const Corner& b, const Corner& c, State front) {
         double determinant = glm::dot(a.at, glm::cross(b.at, c.at));
@@ -59,8 +60,8 @@ class Canvas {
                 if (glm::dot(edges[0], sample) < 0 || glm::dot(edges[1], sample) < 0 || glm::dot(edges[2], sample) < 0) continue;
                 double inverse_depth = std::max(glm::dot(inverse, sample), 0.0);
                 size_t at = size_t(j) * columns + i;
-                if (inverse_depth <= inverse_depths_[at]) continue;
-                inverse_depths_[at] = inverse_depth;
+                if (inverse_depth <= inverse_depths[at]) continue;
+                inverse_depths[at] = inverse_depth;
                 states[at] = state == kShown && inverse_depth == 0 ? kSky : state;
             }
     }
@@ -80,9 +81,7 @@ class Canvas {
 
   public:
     std::vector<uint8_t> states;
-
-  private:
-    std::vector<double> inverse_depths_;
+    std::vector<double> inverse_depths;  // 1/m; of nothing less than 0
 };
 
 // What a cell of the key's grid shows from its own side.
@@ -145,7 +144,7 @@ Shown shown_by(const Key& key, const view::Camera& camera, double most_texel_px)
             canvas.draw(upper[1], lower[0], lower[1], front);
         }
 
-    Shown shown{canvas.columns, canvas.rows, {}};
+    Shown shown{canvas.columns, canvas.rows, {}, std::move(canvas.inverse_depths)};
     size_t surface = 0, behind = 0, nothing = 0;
     for (uint8_t state : canvas.states) {
         shown.is_open.push_back(state != kShown && state != kSky);
@@ -157,6 +156,20 @@ Shown shown_by(const Key& key, const view::Camera& camera, double most_texel_px)
     shown.behind_share = double(behind) / double(canvas.states.size());
     shown.nothing_share = double(nothing) / double(canvas.states.size());
     return shown;
+}
+
+void open_beside_nearer(Shown& shown, double depth_m) {
+    auto is_nearer = [&](int64_t column, int64_t row) {
+        bool is_inside = column >= 0 && row >= 0 && column < shown.columns && row < shown.rows;
+        return is_inside && shown.inverse_depths_per_m[size_t(row) * shown.columns + size_t(column)] * depth_m > 1;
+    };
+    for (int64_t row = 0; row < shown.rows; ++row)
+        for (int64_t column = 0; column < shown.columns; ++column) {
+            if (is_nearer(column, row)) continue;
+            bool is_beside = false;
+            for (int64_t i = 0; i < 9; ++i) is_beside = is_beside || is_nearer(column + i % 3 - 1, row + i / 3 - 1);
+            if (is_beside) shown.is_open[size_t(row) * shown.columns + size_t(column)] = 1;
+        }
 }
 
 }  // namespace overlook::lod_sprite

@@ -101,5 +101,17 @@ TEST(Shown, IsTheSkyFromAnywhereAndNothingBesideThePicture) {
     EXPECT_EQ(shown_by(key, camera, kMostTexel_px).nothing_share, 1);
 }
 
+// All round what is nearer, not in it, and no farther away than that.
+TEST(Shown, IsOpenBesideWhatIsNearer) {
+    Shown shown{5, 4, std::vector<uint8_t>(20, 0), std::vector<double>(20, 1.0 / 200)};
+    shown.inverse_depths_per_m[1 * 5 + 1] = 1.0 / 50;
+    shown.inverse_depths_per_m[0] = 0;  // the sky
+    open_beside_nearer(shown, 40);
+    EXPECT_EQ(open_share(shown), 0);
+    open_beside_nearer(shown, 100);
+    std::vector<uint8_t> wanted = {1, 1, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0};
+    EXPECT_EQ(shown.is_open, wanted);
+}
+
 }  // namespace
 }  // namespace overlook::lod_sprite
