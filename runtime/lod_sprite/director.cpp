@@ -17,7 +17,7 @@ Director::Director(Geometry& geometry, const Settings& settings)
 
 void Director::forget() {
     for (Slot& slot : slots_) slot.is_whole = false;
-    current_.reset(), before_.reset(), waiting_.reset(), next_.reset(), making_.reset();
+    current_.reset(), before_.reset(), waiting_.reset(), making_.reset();
     fade_left_ = 0;
     has_drawn_ = false;
     track_.forget();
@@ -98,11 +98,9 @@ bool Director::begin_frame(const view::Camera& camera) {
     slice_triangles_ = 0;
     took_over_ = Cause::none;
     judge_keys();
-    if (waiting_ && waiting_ != current_) take_over(*waiting_);
-    waiting_.reset();
-    if (next_ && !is_fading()) {
-        if (next_ != current_) take_over(*next_);
-        next_.reset();
+    if (waiting_ && !is_fading()) {
+        if (waiting_ != current_) take_over(*waiting_);
+        waiting_.reset();
     }
     if (spending_.is_limited()) cut_coarse();
     is_cut_ = spending_.is_limited();
@@ -116,7 +114,7 @@ std::optional<KeyWork> Director::key_work(const view::Camera& camera) {
     else if (!spends_all() || !spending_.is_much_left(slice_triangles_))
         return std::nullopt;
     if (making_ && !(current_ && serves(current_reuse_))) drop_wrong_key(has_jumped);
-    if (!making_ && !is_key_begun()) return std::nullopt;
+    if (!making_ && (!has_room() || !is_key_begun())) return std::nullopt;
     return settings_.mode == KeyMode::thread ? thread_work() : slice_work();
 }
 
@@ -133,10 +131,8 @@ void Director::key_done(DepthGrid depths, uint64_t triangle_count) {
     bool is_better = !current_ || settings_.mode == KeyMode::at_once || made.error_p99_px <= current_reuse_.error_p99_px;
     if (is_better || serves(made)) {
         // Where every triangle is spent already, the cut that belongs to this key is the next frame's.
-        if (current_ && spends_all())
+        if ((current_ && spends_all()) || is_fading())
             waiting_ = making_->slot;
-        else if (is_fading())
-            next_ = making_->slot;
         else
             take_over(making_->slot);
     }

@@ -141,6 +141,7 @@ class Director {
     uint32_t frames_left() const;
     Cause cause_now() const;
     void begin_key(const view::Camera& pose, Cause cause);
+    bool has_room() const { return slots_.size() > 2 || !waiting_; }  // for one more key beside those in use
     uint32_t slot_to_empty() const;
     uint64_t slice_triangles();
     bool shows_key() const;
@@ -155,8 +156,7 @@ class Director {
     bool is_begun_ = false, is_cut_ = false;  // this frame
     std::vector<Slot> slots_;
     std::optional<uint32_t> current_, before_;  // the key in use, and the one that it fades in over
-    std::optional<uint32_t> waiting_;           // a whole one that takes over with the next frame
-    std::optional<uint32_t> next_;              // one that takes over when a fade is over
+    std::optional<uint32_t> waiting_;           // a whole one that takes over with the next frame that does not fade
     uint32_t fade_left_ = 0;
     std::optional<Making> making_;
     Reuse current_reuse_;

@@ -43,12 +43,12 @@ Cause Director::cause_now() const {
 
 // The place of the key that would serve the camera least, none of those in use, and one that waits for its time last of all.
 uint32_t Director::slot_to_empty() const {
+    bool keeps_before = slots_.size() > (waiting_ ? 3 : 2);
     uint32_t worst = 0;
     double worst_error = -1;
     for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
         if (!slots_[slot].is_whole) return slot;
-        bool is_used = waiting_ == slot || next_ == slot || (current_ && *current_ == slot) ||
-                       (before_ && *before_ == slot && slots_.size() > 2);
+        bool is_used = waiting_ == slot || current_ == slot || (before_ == slot && keeps_before);
         if (is_used) continue;
         Reuse found = reuse(slot, camera_);
         double error = slots_[slot].is_fresh ? 0 : found.error_p99_px + 1000 * found.lost_share();
@@ -63,7 +63,6 @@ uint32_t Director::slot_to_empty() const {
 void Director::begin_key(const view::Camera& pose, Cause cause) {
     uint32_t slot = slot_to_empty();
     if (before_ && *before_ == slot) before_.reset();
-    if (next_ && *next_ == slot) next_.reset();
     Slot& into = slots_[slot];
     into.is_whole = into.is_fresh = false;
     into.cause = cause;

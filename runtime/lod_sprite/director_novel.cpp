@@ -33,14 +33,10 @@ bool sees_all(const view::Camera& key, const view::Camera& camera, double from_m
 // Of the picture, where the surface's own colours are seen: where no key that is looked into shows what is there, or where a key
 // fades in over none.
 view::PictureMask Director::open_parts() const {
-    auto opened = [&](Shown shown) {
-        if (novel_.near_depth_m > 0) open_beside_nearer(shown, novel_.near_depth_m);
-        return shown;
-    };
-    std::vector<uint8_t> is_open = opened(current_shown_).is_open;
+    std::vector<uint8_t> is_open = open_beside_nearer(current_shown_, novel_.near_depth_m);
     if (has_before()) {
-        Shown other = opened(shown(*before_));
-        for (size_t i = 0; i < is_open.size(); ++i) is_open[i] = (is_open[i] || fade_left_ > 0) && other.is_open[i];
+        std::vector<uint8_t> other = open_beside_nearer(shown(*before_), novel_.near_depth_m);
+        for (size_t i = 0; i < is_open.size(); ++i) is_open[i] = (is_open[i] || fade_left_ > 0) && other[i];
     }
     return {current_shown_.columns, current_shown_.rows, is_open};
 }

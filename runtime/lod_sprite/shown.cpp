@@ -158,7 +158,8 @@ Shown shown_by(const Key& key, const view::Camera& camera, double most_texel_px)
     return shown;
 }
 
-void open_beside_nearer(Shown& shown, double depth_m) {
+std::vector<uint8_t> open_beside_nearer(const Shown& shown, double depth_m) {
+    std::vector<uint8_t> is_open = shown.is_open;
     auto is_nearer = [&](int64_t column, int64_t row) {
         bool is_inside = column >= 0 && row >= 0 && column < shown.columns && row < shown.rows;
         return is_inside && shown.inverse_depths_per_m[size_t(row) * shown.columns + size_t(column)] * depth_m > 1;
@@ -168,8 +169,9 @@ void open_beside_nearer(Shown& shown, double depth_m) {
             if (is_nearer(column, row)) continue;
             bool is_beside = false;
             for (int64_t i = 0; i < 9; ++i) is_beside = is_beside || is_nearer(column + i % 3 - 1, row + i / 3 - 1);
-            if (is_beside) shown.is_open[size_t(row) * shown.columns + size_t(column)] = 1;
+            if (is_beside) is_open[size_t(row) * shown.columns + size_t(column)] = 1;
         }
+    return is_open;
 }
 
 }  // namespace overlook::lod_sprite

@@ -30,8 +30,8 @@ struct Shown {
 // have become wider than most_texel_px (> 0, in the camera's pixels) counts as open. Cost O(grid + samples).
 Shown shown_by(const Key& key, const view::Camera& camera, double most_texel_px);
 
-// Opens what is beside samples nearer than depth_m > 0 without being so itself. Nearer things are drawn as they are; keys that
-// saw them elsewhere do not show what has come out from behind their outlines.
-void open_beside_nearer(Shown& shown, double depth_m);
+// Shown::is_open, and open as well what is beside samples nearer than depth_m >= 0 without being so itself. Nearer things are
+// drawn as they are; keys that saw them elsewhere do not show what has come out from behind their outlines.
+std::vector<uint8_t> open_beside_nearer(const Shown& shown, double depth_m);
 
 }  // namespace overlook::lod_sprite

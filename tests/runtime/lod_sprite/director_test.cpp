@@ -141,6 +141,39 @@ int frames_without_key(Flight& flight, view::Camera camera, const glm::dvec3& st
     return 100;
 }
 
+// Keys fade in and out by a step a frame, also where one is done while another fades in, unless none at hand serves any longer;
+// and however few may be kept, one in use is never emptied (Flight::step sees to that).
+TEST(Director, NeverBreaksOffAFadeThatServes) {
+    uint32_t made_in_fades = 0;
+    for (uint32_t slots : {2u, 3u, 4u}) {
+        Settings settings;
+        settings.slots = slots;
+        settings.fade_frames = 24;
+        Flight flight(settings);
+        std::map<uint32_t, double> before;
+        double fade_before = 0, lost_before = 1;
+        for (const Frame& frame : flight.fly(start_pose(), {0, 20, 0}, 0, 240)) {
+            made_in_fades += frame.ended_key && fade_before > 0;
+            std::map<uint32_t, double> weights;
+            for (const NovelUse& use : frame.novel.keys) weights[use.slot] = use.weight;
+            bool served = lost_before < 0.003;  // with room to spare for one more frame
+            for (auto [slot, weight] : weights) {
+                bool goes_on = served && frame.novel.rekeyed == Cause::none && before.count(slot) > 0;
+                if (goes_on) {
+                    EXPECT_LE(std::abs(weight - before.at(slot)), 1.0 / settings.fade_frames + 0.002) << slot;
+                }
+            }
+            if (frame.novel.rekeyed != Cause::none && served) {
+                EXPECT_LE(fade_before, 1.5 / settings.fade_frames) << "broken off";
+            }
+            before = weights;
+            fade_before = frame.novel.own_weight;
+            lost_before = frame.novel.lost_share;
+        }
+    }
+    EXPECT_GT(made_in_fades, 0u);
+}
+
 // What frames with keys keep, frames without one keep as well: keys may be made of finer triangles than anybody asks of a frame.
 TEST(Director, KeepsTheErrorAskedWhileThereIsNoKey) {
     for (double key_error_px : {0.1, 0.5}) {

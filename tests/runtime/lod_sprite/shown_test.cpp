@@ -106,11 +106,10 @@ TEST(Shown, IsOpenBesideWhatIsNearer) {
     Shown shown{5, 4, std::vector<uint8_t>(20, 0), std::vector<double>(20, 1.0 / 200)};
     shown.inverse_depths_per_m[1 * 5 + 1] = 1.0 / 50;
     shown.inverse_depths_per_m[0] = 0;  // the sky
-    open_beside_nearer(shown, 40);
-    EXPECT_EQ(open_share(shown), 0);
-    open_beside_nearer(shown, 100);
+    EXPECT_EQ(open_beside_nearer(shown, 0), shown.is_open);
+    EXPECT_EQ(open_beside_nearer(shown, 40), shown.is_open);
     std::vector<uint8_t> wanted = {1, 1, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0};
-    EXPECT_EQ(shown.is_open, wanted);
+    EXPECT_EQ(open_beside_nearer(shown, 100), wanted);
 }
 
 }  // namespace

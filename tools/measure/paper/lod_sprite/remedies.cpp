@@ -11,7 +11,7 @@
 namespace overlook::measure::paper::sprite {
 namespace {
 
-constexpr std::array<Remedy, 13> kRemedies = {{
+constexpr std::array<Remedy, 14> kRemedies = {{
     {"keys in slices", "keyframe=at-once",
      "A key is drawn a slice a frame, for a pose predicted ahead; here whole, in the frame that finds the old one too bad."},
     {"keys in slices", "keyframe=thread",
@@ -27,6 +27,8 @@ constexpr std::array<Remedy, 13> kRemedies = {{
     {"open parts closed", "open-parts=0",
      "What no key is proven to show is drawn as fine as a key is shown again, not by the coarse cut."},
     {"near geometry", "near=0", "What is too near for a key to serve is drawn as geometry, as fine as asked."},
+    {"keys that give way before they blur", "most-grown=3",
+     "A new key is made when texels have become 1.6 times as wide, not three times."},
     {"keys of twice the resolution", "key-scale=1", "Four texels a pixel carry the antialiasing into the frames between keys."},
     {"geomorph (here on)", "morph=0.5",
      "Vertices of the coarse surface can glide into place. By default they do not: what is seen of it lies in the key."},
