@@ -15,6 +15,7 @@
 #include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/mesh_method.h"
+#include "tools/measure/streamed_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -26,6 +27,7 @@ constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
 constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
+constexpr std::array<SettingKind, 3> kTileSettings = {kErrorPx, kSamples, kMorph};
 constexpr std::array<SettingKind, 2> kDiscreteSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 // What runtime says of a method, and the samples of the pictures.
@@ -35,17 +37,29 @@ std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
     return all;
 }
 
-const std::array<MethodKind, 9>& kinds() {
+std::vector<SettingKind> with_streaming(std::span<const SettingKind> settings) {
+    std::vector<SettingKind> all(settings.begin(), settings.end());
+    all.insert(all.end(), kStreamSettings.begin(), kStreamSettings.end());
+    return all;
+}
+
+const std::array<MethodKind, 11>& kinds() {
     static const std::vector<SettingKind> kSprite = with_samples(lod_sprite::setting_kinds());
     static const std::vector<SettingKind> kSpritePaper = with_samples(lod_sprite::paper::setting_kinds());
     static const std::vector<SettingKind> kOwn = with_samples(caveclod::setting_kinds(caveclod::Variant::own)),
-                                          kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper));
-    static const std::array<MethodKind, 9> kKinds = {
-        MethodKind{"terrain", "", kTerrainSettings}, MethodKind{"terrain", "hard", kHardSettings},
-        MethodKind{"lod-sprite", "", kSprite}, MethodKind{"lod-sprite", "paper", kSpritePaper},
-        MethodKind{"caveclod", "", kOwn}, MethodKind{"caveclod", "paper", kOthers}, MethodKind{"caveclod", "shared", kOthers},
-        MethodKind{"discrete", "", kDiscreteSettings},
-        MethodKind{"full", "", kFullSettings}};
+                                          kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper)),
+                                          kBlocks = with_streaming(kOwn), kTiles = with_streaming(kTileSettings);
+    static const std::array<MethodKind, 11> kKinds = {MethodKind{"terrain", "", kTerrainSettings},
+                                                      MethodKind{"terrain", "hard", kHardSettings},
+                                                      MethodKind{"terrain", "streamed", kTiles},
+                                                      MethodKind{"lod-sprite", "", kSprite},
+                                                      MethodKind{"lod-sprite", "paper", kSpritePaper},
+                                                      MethodKind{"caveclod", "", kOwn},
+                                                      MethodKind{"caveclod", "paper", kOthers},
+                                                      MethodKind{"caveclod", "shared", kOthers},
+                                                      MethodKind{"caveclod", "streamed", kBlocks},
+                                                      MethodKind{"discrete", "", kDiscreteSettings},
+                                                      MethodKind{"full", "", kFullSettings}};
     return kKinds;
 }
 
@@ -262,7 +276,11 @@ bool draws_terrains(const MethodSpec& spec) {
 
 Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) {
     for (const MethodSpec& spec : specs) {
-        if (world.is_mesh() ? draws_meshes(spec) : draws_terrains(spec)) continue;
+        if (world.is_mesh() ? draws_meshes(spec) : draws_terrains(spec)) {
+            if (!is_streamed(spec)) continue;
+            if (Result<void> streams = check_streams(spec, world); !streams) return streams;
+            continue;
+        }
         return impossible("--method {}: it draws {}, and {} holds a {}", named(spec), world.is_mesh() ? "terrains" : "meshes",
                           world.name, world.is_mesh() ? "mesh" : "terrain");
     }
@@ -271,6 +289,7 @@ Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) 
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
+    if (is_streamed(spec)) return make_streamed_method(world, spec);
     if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     if (spec.name == "caveclod") return make_caveclod_method(world, spec);

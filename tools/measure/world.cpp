@@ -66,6 +66,7 @@ Result<World> read_world(const std::string& path) {
 
     World world;
     world.name = path.substr(path.rfind('/') + 1);
+    world.asset_path = asset;
     std::string hashes = content_hash(scene_file->bytes()) + content_hash(asset_file->bytes());
     world.content_hash = content_hash(std::as_bytes(std::span(hashes)));
     Result<double> near_m = file->kind() == caveclod::kKind ? read_mesh(*file, world) : read_terrain(*file, world);
