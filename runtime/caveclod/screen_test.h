@@ -108,14 +108,9 @@ class ScreenTest {
     }
     // The least depth is at most d - r, or the nearest that is drawn, and a secant at least 1: what is applied in the wide sector
     // stays if d - r is at most f * e / (collapse_share * error_px). Answers false as well where it cannot tell.
-    bool is_kept(uint32_t split) const {
-        if (tests_cones_) return false;
-        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
-        double radius_m = mesh_.radius_m(split), reach_m = mesh_.error_m(split) * keep_reach_;
-        double near_enough_m = radius_m + reach_m;
-        return reach_m > near_m_ && glm::dot(from_eye, from_eye) <= near_enough_m * near_enough_m &&
-               wide_.holds(bound_.place_of(from_eye), radius_m);
-    }
+    bool is_kept(uint32_t split) const { return !tests_cones_ && is_larger(split, wide_); }
+    // The same of what must be split, where no band lies between.
+    bool is_surely_split(uint32_t split) const { return collapse_share_ == 1 && !culls_back_faces_ && is_larger(split, narrow_); }
 
   private:
     static constexpr double kRounding = 1e-9;  // what the shorter way may round otherwise
@@ -137,6 +132,15 @@ class ScreenTest {
             return x.holds(place.right, place.forward, radius_m) && y.holds(place.up, place.forward, radius_m);
         }
     };
+
+    // Whether it surely has more than collapse_share * error_px in a sector.
+    bool is_larger(uint32_t split, const Sector& sector) const {
+        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
+        double radius_m = mesh_.radius_m(split), reach_m = mesh_.error_m(split) * keep_reach_;
+        double near_enough_m = radius_m + reach_m;
+        return reach_m > near_m_ && glm::dot(from_eye, from_eye) <= near_enough_m * near_enough_m &&
+               sector.holds(bound_.place_of(from_eye), radius_m);
+    }
 
     enum class Facing { towards, both, away };
     // Of all normals in a cone, widened by `more` of its 255 steps, at all places of a sphere.

@@ -1,0 +1,125 @@
+// What of a refinement's splits wants to change: Refinement's looking, which changes nothing.
+#include <algorithm>
+#include <bit>
+#include <functional>
+
+#include "runtime/caveclod/refine.h"
+#include "runtime/caveclod/refine_frame.h"
+
+namespace overlook::caveclod {
+namespace {
+
+constexpr size_t kPartWords = 128;
+// So many splits ahead their bounds are asked for: they lie scattered over the mesh.
+constexpr size_t kAhead = 16;
+
+void append_bits(std::vector<uint32_t>& splits, size_t word, uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1) splits.push_back(uint32_t(64 * word) + uint32_t(std::countr_zero(bits)));
+}
+
+}  // namespace
+
+void Refinement::Found::clear() {
+    waiting.clear(), standing.clear(), splits.clear(), collapses.clear(), reserve.clear(), turned.clear(), arrived.clear();
+    error_px = 0, greatest = evaluated_count = 0;
+}
+
+size_t Refinement::part_count() const {
+    return (open_.size() + kPartWords - 1) / kPartWords;
+}
+
+// All that could change of a part.
+void Refinement::look(const Frame& frame, size_t part) {
+    Found& found = parts_[part];
+    found.clear();
+    found.leave(frame.greatest_left, frame.report.error_px);
+    for (size_t word = part * kPartWords, end = std::min(open_.size(), word + kPartWords); word < end; ++word) {
+        append_bits(found.waiting, word, open_[word] & ~applied_[word]);
+        if (frame.asks_applied) append_bits(found.standing, word, open_[word] & applied_[word]);
+    }
+    found.evaluated_count = uint32_t(found.waiting.size() + found.standing.size());
+    look_at_waiting(frame, found);
+    look_at_standing(frame, found);
+}
+
+// Most of them show at once that they stay as they are, and that none of them is the greatest error.
+void Refinement::look_at_waiting(const Frame& frame, Found& found) const {
+    const ScreenTest& test = frame.test;
+    double known_px = -1, reach = 0;
+    for (size_t i = 0; i < found.waiting.size(); ++i) {
+        if (i + kAhead < found.waiting.size()) mesh_.prefetch_bounds(found.waiting[i + kAhead]);
+        if (found.error_px != known_px) {
+            known_px = found.error_px;
+            reach = test.reach_of(std::min(known_px, test.least_split_px()));
+        }
+        if (!test.is_within(found.waiting[i], reach)) look_at(frame, found.waiting[i], found);
+    }
+}
+
+void Refinement::look_at_standing(const Frame& frame, Found& found) const {
+    for (size_t i = 0; i < found.standing.size(); ++i) {
+        if (i + kAhead < found.standing.size()) mesh_.prefetch_bounds(found.standing[i + kAhead]);
+        uint32_t split = found.standing[i];
+        bool may_stay = !frame.keeps_reserve && !has(gliding_, split) && split < mesh_.split_limit();
+        if (!may_stay || !frame.test.is_kept(split)) look_at(frame, split, found);
+    }
+}
+
+void Refinement::look_at(const Frame& frame, uint32_t split, Found& found) const {
+    auto answer = frame.test(split);
+    if (split >= mesh_.split_limit()) answer.must_split = answer.wants_split = false, answer.wants_collapse = true;
+    if (!has(applied_, split)) {
+        if (answer.must_split || (answer.wants_split && mesh_.glides(split)))
+            found.splits.push_back({answer.error_px, split});
+        else
+            found.leave(split, answer.seen_error_px);
+    } else if (has(gliding_, split)) {
+        if (answer.wants_split) found.turned.push_back(split);
+        if (!glides_.of(split).moves) return;  // it is drawn as split
+        if (answer.must_split)
+            found.arrived.push_back(split);
+        else
+            found.leave(split, answer.seen_error_px);
+    } else if (answer.wants_collapse) {
+        found.collapses.push_back({answer.error_px, split});
+    } else if (frame.keeps_reserve) {
+        found.reserve.push_back({answer.error_px, split});
+    }
+}
+
+// What was the greatest error in the last frame is likely to be so again, or nearly: then little else is looked at closely.
+void Refinement::guess_greatest(Frame& frame) {
+    if (greatest_left_ >= split_count_ || !has(open_, greatest_left_) || has(applied_, greatest_left_)) return;
+    one_.clear();
+    look_at(frame, greatest_left_, one_);
+    if (one_.error_px <= frame.report.error_px) return;
+    frame.report.error_px = one_.error_px;
+    frame.greatest_left = greatest_left_;
+}
+
+void Refinement::take(Frame& frame, const Found& found) {
+    for (uint32_t split : found.turned) glides_.turn_back(split);
+    for (uint32_t split : found.arrived) finish_glide(split);
+    auto push = [](std::vector<Wish>& heap, const std::vector<Wish>& wishes, const auto& less) {
+        for (const Wish& wish : wishes) {
+            heap.push_back(wish);
+            std::push_heap(heap.begin(), heap.end(), less);
+        }
+    };
+    push(splits_, found.splits, std::less<>());
+    push(collapses_, found.collapses, std::greater<>());
+    push(reserve_, found.reserve, std::greater<>());
+    frame.report.evaluated_count += found.evaluated_count;
+    if (found.error_px <= frame.report.error_px) return;
+    frame.report.error_px = found.error_px;
+    frame.greatest_left = found.greatest;
+}
+
+void Refinement::evaluate(Frame& frame, uint32_t split) {
+    one_.clear();
+    one_.evaluated_count = 1;
+    look_at(frame, split, one_);
+    take(frame, one_);
+}
+
+}  // namespace overlook::caveclod
