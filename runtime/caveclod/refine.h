@@ -93,10 +93,10 @@ class Refinement {
     };
     // What looking at some splits has found. Nothing is changed meanwhile, so that threads may share them out.
     struct Found {
-        std::vector<uint32_t> waiting, standing;  // that were looked at: not applied, applied
+        std::vector<uint32_t> waiting, standing, moving;  // that were looked at: not applied; applied; on their way
         std::vector<Wish> splits, collapses, reserve;
         std::vector<uint32_t> turned, arrived;  // on their way: those that shall not collapse, those that must be at their place
-        double error_px = 0;                    // the greatest that is left unsplit in view, and whose it is
+        double error_px = 0;                    // the greatest of them that is left unsplit in view, and whose it is
         uint32_t greatest = 0, evaluated_count = 0;
 
         void leave(uint32_t split, double px) {

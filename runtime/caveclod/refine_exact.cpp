@@ -18,8 +18,8 @@ void Refinement::undo_unwanted(Frame& frame) {
             uint32_t split = uint32_t(64 * word) + uint32_t(std::countr_zero(left));
             bool stands = !has(falls, split);
             frame.report.evaluated_count += stands;
-            if (stands && split < mesh_.split_limit() && (frame.test.is_surely_split(split) || frame.test(split).must_split))
-                continue;
+            bool may_stay = stands && split < mesh_.split_limit();
+            if (may_stay && (frame.test.is_surely_split(frame.test.sphere(split)) || frame.test(split).must_split)) continue;
             unwanted.push_back(split);
             mesh_.decode_dependents(split, needs_);
             for (uint32_t dependent : needs_) put(falls, dependent, true);

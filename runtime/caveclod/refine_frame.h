@@ -1,6 +1,8 @@
 // What one call of Refinement::refine works with.
 #pragma once
 
+#include <atomic>
+
 #include "runtime/caveclod/refine.h"
 #include "runtime/caveclod/screen_test.h"
 
@@ -21,6 +23,9 @@ struct Refinement::Frame {
     bool keeps_reserve = false;  // near the budget of triangles: what could be collapsed is wanted by error
     bool asks_applied = true;    // false: it is known that all that is applied stays
     uint64_t operations_left = 0;
+    // As much is known to be left unsplit in view: nothing less need be looked at closely. Parts tell each other; what they find
+    // together does not depend on who was first.
+    mutable std::atomic<double> known_px{0};
 };
 
 }  // namespace overlook::caveclod

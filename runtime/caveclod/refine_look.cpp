@@ -9,7 +9,7 @@
 namespace overlook::caveclod {
 namespace {
 
-constexpr size_t kPartWords = 128;
+constexpr size_t kPartWords = 32;
 // So many splits ahead their bounds are asked for: they lie scattered over the mesh.
 constexpr size_t kAhead = 16;
 
@@ -20,7 +20,8 @@ void append_bits(std::vector<uint32_t>& splits, size_t word, uint64_t bits) {
 }  // namespace
 
 void Refinement::Found::clear() {
-    waiting.clear(), standing.clear(), splits.clear(), collapses.clear(), reserve.clear(), turned.clear(), arrived.clear();
+    waiting.clear(), standing.clear(), moving.clear(), splits.clear(), collapses.clear(), reserve.clear(), turned.clear(),
+        arrived.clear();
     error_px = 0, greatest = evaluated_count = 0;
 }
 
@@ -32,36 +33,45 @@ size_t Refinement::part_count() const {
 void Refinement::look(const Frame& frame, size_t part) {
     Found& found = parts_[part];
     found.clear();
-    found.leave(frame.greatest_left, frame.report.error_px);
     for (size_t word = part * kPartWords, end = std::min(open_.size(), word + kPartWords); word < end; ++word) {
         append_bits(found.waiting, word, open_[word] & ~applied_[word]);
-        if (frame.asks_applied) append_bits(found.standing, word, open_[word] & applied_[word]);
+        if (!frame.asks_applied) continue;
+        append_bits(found.standing, word, open_[word] & applied_[word] & ~gliding_[word]);
+        append_bits(found.moving, word, open_[word] & gliding_[word]);
     }
-    found.evaluated_count = uint32_t(found.waiting.size() + found.standing.size());
+    found.evaluated_count = uint32_t(found.waiting.size() + found.standing.size() + found.moving.size());
     look_at_waiting(frame, found);
     look_at_standing(frame, found);
+    for (uint32_t split : found.moving) look_at(frame, split, found);
+    double known_px = frame.known_px.load();
+    while (found.error_px > known_px && !frame.known_px.compare_exchange_weak(known_px, found.error_px)) continue;
 }
 
-// Most of them show at once that they stay as they are, and that none of them is the greatest error.
+// Most of them show at once that they stay as they are, and that none of them is the greatest error. Only what can glide begins
+// before it must.
 void Refinement::look_at_waiting(const Frame& frame, Found& found) const {
     const ScreenTest& test = frame.test;
-    double known_px = -1, reach = 0;
+    double known_px = -1, glide_px = 0, fade_px = 0, reach = 0;
     for (size_t i = 0; i < found.waiting.size(); ++i) {
         if (i + kAhead < found.waiting.size()) mesh_.prefetch_bounds(found.waiting[i + kAhead]);
-        if (found.error_px != known_px) {
-            known_px = found.error_px;
-            reach = test.reach_of(std::min(known_px, test.least_split_px()));
+        if (double px = std::max(frame.known_px.load(std::memory_order_relaxed), found.error_px); px != known_px) {
+            known_px = px;
+            glide_px = std::min(known_px, test.least_split_px()), fade_px = std::min(known_px, test.least_limit_px());
+            reach = test.reach_of(glide_px);
         }
-        if (!test.is_within(found.waiting[i], reach)) look_at(frame, found.waiting[i], found);
+        uint32_t split = found.waiting[i];
+        ScreenTest::Sphere sphere = test.sphere(split);
+        if (test.is_within(sphere, reach) || test.is_seen_within(sphere, mesh_.glides(split) ? glide_px : fade_px)) continue;
+        look_at(frame, split, found);
     }
 }
 
 void Refinement::look_at_standing(const Frame& frame, Found& found) const {
+    bool all_closely = frame.keeps_reserve || mesh_.split_limit() < mesh_.split_count();
     for (size_t i = 0; i < found.standing.size(); ++i) {
         if (i + kAhead < found.standing.size()) mesh_.prefetch_bounds(found.standing[i + kAhead]);
         uint32_t split = found.standing[i];
-        bool may_stay = !frame.keeps_reserve && !has(gliding_, split) && split < mesh_.split_limit();
-        if (!may_stay || !frame.test.is_kept(split)) look_at(frame, split, found);
+        if (all_closely || !frame.test.is_kept(frame.test.sphere(split))) look_at(frame, split, found);
     }
 }
 
@@ -89,12 +99,11 @@ void Refinement::look_at(const Frame& frame, uint32_t split, Found& found) const
 
 // What was the greatest error in the last frame is likely to be so again, or nearly: then little else is looked at closely.
 void Refinement::guess_greatest(Frame& frame) {
-    if (greatest_left_ >= split_count_ || !has(open_, greatest_left_) || has(applied_, greatest_left_)) return;
     one_.clear();
-    look_at(frame, greatest_left_, one_);
-    if (one_.error_px <= frame.report.error_px) return;
-    frame.report.error_px = one_.error_px;
-    frame.greatest_left = greatest_left_;
+    bool is_left = greatest_left_ < split_count_ && has(open_, greatest_left_) && !has(applied_, greatest_left_);
+    if (is_left) look_at(frame, greatest_left_, one_);
+    if (one_.error_px > frame.report.error_px) frame.report.error_px = one_.error_px, frame.greatest_left = greatest_left_;
+    frame.known_px.store(frame.report.error_px);
 }
 
 void Refinement::take(Frame& frame, const Found& found) {

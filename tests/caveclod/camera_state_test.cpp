@@ -67,7 +67,7 @@ TEST(FaceSlots, HoldWhatWasPutInThroughGrowingAndShrinking) {
             } else if (random() % 4 == 0) {
                 faces.remove(face), faces.remove(face + 1);
             }
-            faces.move(uint32_t(random() % 60000), random() % 3, uint32_t(random()));
+            faces.move(uint32_t(random() % 60000), uint32_t(random() % 3), uint32_t(random()));
         }
         faces.expect_same();
         EXPECT_FALSE(faces.slots().has(70000));
