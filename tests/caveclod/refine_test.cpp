@@ -128,7 +128,7 @@ TEST(ScreenTest, AnswersTheShortWayAsTheLongOne) {
         }
     }
     EXPECT_GT(within, all / 200);
-    EXPECT_GT(seen_within, all / 4);
+    EXPECT_GT(seen_within, all / 10);
     EXPECT_GT(kept, all / 50);
 }
 
