@@ -10,11 +10,13 @@ namespace overlook::caveclod {
 namespace {
 
 constexpr size_t kPartWords = 32;
-// So many splits ahead their bounds are asked for: they lie scattered over the mesh.
-constexpr size_t kAhead = 16;
 
-void append_bits(std::vector<uint32_t>& splits, size_t word, uint64_t bits) {
-    for (; bits != 0; bits &= bits - 1) splits.push_back(uint32_t(64 * word) + uint32_t(std::countr_zero(bits)));
+// The bounds of what is appended lie scattered over the mesh: they are asked for long before they are read.
+void append_bits(const Mesh& mesh, size_t word, uint64_t bits, std::vector<uint32_t>& splits) {
+    for (; bits != 0; bits &= bits - 1) {
+        splits.push_back(uint32_t(64 * word) + uint32_t(std::countr_zero(bits)));
+        mesh.prefetch_bounds(splits.back());
+    }
 }
 
 }  // namespace
@@ -34,10 +36,10 @@ void Refinement::look(const Frame& frame, size_t part) {
     Found& found = parts_[part];
     found.clear();
     for (size_t word = part * kPartWords, end = std::min(open_.size(), word + kPartWords); word < end; ++word) {
-        append_bits(found.waiting, word, open_[word] & ~applied_[word]);
+        append_bits(mesh_, word, open_[word] & ~applied_[word], found.waiting);
         if (!frame.asks_applied) continue;
-        append_bits(found.standing, word, open_[word] & applied_[word] & ~gliding_[word]);
-        append_bits(found.moving, word, open_[word] & gliding_[word]);
+        append_bits(mesh_, word, open_[word] & applied_[word] & ~gliding_[word], found.standing);
+        append_bits(mesh_, word, open_[word] & gliding_[word], found.moving);
     }
     found.evaluated_count = uint32_t(found.waiting.size() + found.standing.size() + found.moving.size());
     look_at_waiting(frame, found);
@@ -52,14 +54,12 @@ void Refinement::look(const Frame& frame, size_t part) {
 void Refinement::look_at_waiting(const Frame& frame, Found& found) const {
     const ScreenTest& test = frame.test;
     double known_px = -1, glide_px = 0, fade_px = 0, reach = 0;
-    for (size_t i = 0; i < found.waiting.size(); ++i) {
-        if (i + kAhead < found.waiting.size()) mesh_.prefetch_bounds(found.waiting[i + kAhead]);
+    for (uint32_t split : found.waiting) {
         if (double px = std::max(frame.known_px.load(std::memory_order_relaxed), found.error_px); px != known_px) {
             known_px = px;
             glide_px = std::min(known_px, test.least_split_px()), fade_px = std::min(known_px, test.least_limit_px());
             reach = test.reach_of(glide_px);
         }
-        uint32_t split = found.waiting[i];
         ScreenTest::Sphere sphere = test.sphere(split);
         if (test.is_within(sphere, reach) || test.is_seen_within(sphere, mesh_.glides(split) ? glide_px : fade_px)) continue;
         look_at(frame, split, found);
@@ -68,11 +68,8 @@ void Refinement::look_at_waiting(const Frame& frame, Found& found) const {
 
 void Refinement::look_at_standing(const Frame& frame, Found& found) const {
     bool all_closely = frame.keeps_reserve || mesh_.split_limit() < mesh_.split_count();
-    for (size_t i = 0; i < found.standing.size(); ++i) {
-        if (i + kAhead < found.standing.size()) mesh_.prefetch_bounds(found.standing[i + kAhead]);
-        uint32_t split = found.standing[i];
+    for (uint32_t split : found.standing)
         if (all_closely || !frame.test.is_kept(frame.test.sphere(split))) look_at(frame, split, found);
-    }
 }
 
 void Refinement::look_at(const Frame& frame, uint32_t split, Found& found) const {
