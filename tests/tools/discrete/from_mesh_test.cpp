@@ -157,7 +157,7 @@ TEST(Foliage, LosesTheSmallestOfNeighboursFirst) {
 
 TEST(Foliage, KeepsACardThatStandsAloneHoweverSmallItIs) {
     sample::ShapeMaker shapes({test::leaves()});
-    for (int i = 0; i < 64; ++i) shapes.add_card(0, glm::dvec3(0.1 * i, 0, 0), {0.1, 0, 0}, {0, 0, 0.1}, {0, -1, 0});
+    for (int i = 0; i < 64; ++i) shapes.add_card(0, glm::dvec3(0.13 * i, 0, 0), {0.1, 0, 0}, {0, 0, 0.1}, {0, -1, 0});
     shapes.add_card(0, glm::dvec3(3, 20, 0), {0.01, 0, 0}, {0, 0, 0.01}, {0, -1, 0});
     mesh::Mesh mesh = shapes.take();
     Shape shape;
