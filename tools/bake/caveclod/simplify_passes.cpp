@@ -35,12 +35,11 @@ float float_at_least(double value) {
     return double(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
-std::vector<Triangle> triangles_of(const WorkingMesh& mesh) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(mesh.face_count());
-    for (const WorkingFace& face : mesh.faces)
-        triangles.push_back({mesh.at(face.position[0]), mesh.at(face.position[1]), mesh.at(face.position[2])});
-    return triangles;
+SourceParts parts_of(const WorkingMesh& mesh) {
+    std::vector<std::array<uint32_t, 3>> faces;
+    faces.reserve(mesh.face_count());
+    for (const WorkingFace& face : mesh.faces) faces.push_back({face.position[0], face.position[1], face.position[2]});
+    return SourceParts(mesh.positions_m, faces);
 }
 
 }  // namespace
@@ -49,12 +48,12 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
     : mesh_(mesh),
       seams_(seams),
       report_(report),
-      source_(std::span<const Triangle>()),
+      source_({}, {}),
       refused_(mesh.some_corner.size()),
       slack_m_(turn_slack_m(mesh.positions_m)),
       face_error_m_(mesh.face_count(), 0.0f) {
     parallel_ranges(3, 1, [&](size_t part, size_t) {
-        if (part == 0) source_ = TriangleTree(triangles_of(mesh));
+        if (part == 0) source_ = parts_of(mesh);
         if (part == 1) quadrics_ = make_quadrics(mesh);
         if (part == 2) map_ = make_surface_map(mesh);
     });
@@ -67,6 +66,7 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
         if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
     candidates_.resize(position_count);
     known_.assign(position_count, kNothing);
+    refused_by_.assign(position_count, Hindrance::turned);
     touched_in_.assign(position_count, 0);
     target_in_.assign(position_count, 0);
 }
@@ -83,6 +83,11 @@ bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
     std::erase_if(alive_, [&](uint32_t p) { return !mesh_.is_alive(p); });
     ++report_.pass_count;
     return true;
+}
+
+Hindrance Passes::hindrance_of(uint32_t position) const {
+    Hindrance rule = caveclod::hindrance_of(mesh_, position);
+    return rule == Hindrance::turned ? refused_by_[position] : rule;
 }
 
 void Passes::find_queue() {
@@ -206,7 +211,9 @@ void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& change
     for (uint32_t i = 0; i < fan.count; ++i)
         chosen.fan_error_m = std::max(chosen.fan_error_m, double(face_error_m_[fan.corner[i] / kCorners]));
     if (mesh_.seams_move) measure_seams(chosen, prepared, changes);
-    chosen.is_refused = !chosen.measured.faces_its_source || !chosen.seam_error.is_within(seams_);
+    bool is_within = chosen.seam_error.is_within(seams_), has_slid = chosen.seam_error.uv_texels > seams_.uv_texels;
+    chosen.is_refused = !chosen.measured.faces_its_source || !is_within;
+    if (!is_within) chosen.refused_by = has_slid ? Hindrance::texels : Hindrance::degrees;
     bool may_be_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
     if (may_be_made) chosen.turned_face = find_turned_face(chosen, fan);
     chosen.is_refused |= chosen.turned_face != kNone;
@@ -230,7 +237,7 @@ uint32_t Passes::find_turned_face(const Chosen& chosen, const Fan& fan) const {
         guesses[count] = fan.corner[i] / kCorners;
     }
     size_t turned =
-        first_turned(source_, std::span(faces).first(count), chosen.fan_error_m, slack_m_, std::span(guesses).first(count));
+        source_.first_turned(std::span(faces).first(count), chosen.fan_error_m, slack_m_, std::span(guesses).first(count));
     return turned == count ? kNone : fan.first + uint32_t(turned);
 }
 
@@ -264,6 +271,7 @@ void Passes::decide(CollapseLog& log) {
             else
                 candidate = {kForbidden_m, kNone, 0};
             ++report_.refused_count;
+            refused_by_[chosen.gone] = chosen.refused_by;
         } else if (!chosen.is_made) {
             candidate.cost_m = chosen.worst_m / kWorst * kFloatAllowance;
             least_waiting_m = std::min(least_waiting_m, candidate.cost_m);
