@@ -132,12 +132,11 @@ void report(const MeshArgs& args, const Done& done, const command::Common& commo
                                         bake.simplify.collapse_count, bake.simplify.depth, bake.simplify.need_count, done.read_s,
                                         done.bake_s, done.million_triangles_per_s()));
     const caveclod::HindranceCounts& kept = bake.simplify.hindrances;
-    command::detail(common,
-                    fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
-                                "topology, {} because a face would fold, {} because one would look away from its source, {} "
-                                "because a seam's budget would be passed",
-                                with_commas(done.base_face_count), kept[0], kept[1], kept[2], kept[3], kept[4],
-                                kept[5] + kept[6]));
+    command::detail(
+        common, fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
+                            "topology, {} because a face would fold, {} because one would look away from its source, {} "
+                            "because a seam's budget would be passed",
+                            with_commas(done.base_face_count), kept[0], kept[1], kept[2], kept[3], kept[4], kept[5] + kept[6]));
     command::detail(common, fmt::format("at an error of 1 % of its diagonal ({:.3g} m) {} triangles are left, {:.1f} %",
                                         0.01 * bake.size_m, with_commas(bake.face_count_at_one_percent),
                                         100 * double(bake.face_count_at_one_percent) / double(bake.source_face_count)));

@@ -17,8 +17,14 @@ constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
 // What is known of a position's candidate; kNext: it was refused, and the next dearer one is wanted
 // (where seams move).
 constexpr uint8_t kNothing = 0, kGuess = 1, kNext = 2, kAllowed = 3;
-// A pass takes from the cheapest this share of all candidates; those measured worse than kWorst times its limit wait.
-constexpr double kShareOfPass = 0.5, kWorst = 2.5;
+// A pass takes from the cheapest this share of all candidates; those measured worse than so many times its limit wait. A collapse
+// out of order holds all that comes after it at its error, so where the limit is above kCoarseShare of the mesh's size, and few
+// faces are left, a pass is choosier.
+struct Choosiness {
+    double share_of_pass, worst;
+};
+constexpr Choosiness kFine{0.5, 2.5}, kCoarse{0.25, 1};
+constexpr double kCoarseShare = 1e-3;
 // Below this share of the mesh's size errors are rounding, and all the same.
 constexpr double kLeastLimitShare = 1e-8;
 // The queue keeps costs as float: what waited must not miss its limit by their rounding.
@@ -60,7 +66,8 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
     face_count_ = mesh.face_count();
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
-    limit_m_ = kLeastLimitShare * double(glm::length(high - low));
+    size_m_ = double(glm::length(high - low));
+    limit_m_ = kLeastLimitShare * size_m_;
     size_t position_count = mesh.some_corner.size();
     for (uint32_t p = 0; p < position_count; ++p)
         if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
@@ -90,6 +97,15 @@ Hindrance Passes::hindrance_of(uint32_t position) const {
     return rule == Hindrance::turned ? refused_by_[position] : rule;
 }
 
+bool Passes::is_coarse() const {
+    return limit_m_ > kCoarseShare * size_m_;
+}
+
+// What a collapse may be measured at and be made in this pass.
+double Passes::most_allowed_m() const {
+    return limit_m_ * (is_coarse() ? kCoarse : kFine).worst;
+}
+
 void Passes::find_queue() {
     Stopwatch watch(report_.candidates_s);
     guess_candidates();
@@ -115,7 +131,7 @@ void Passes::raise_limit() {
         if (candidates_[p].kept != kNone) costs_.push_back(float(candidates_[p].cost_m));
     if (costs_.empty()) limit_m_ = kForbidden_m;
     if (costs_.empty()) return;
-    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * kShareOfPass);
+    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * (is_coarse() ? kCoarse : kFine).share_of_pass);
     std::nth_element(costs_.begin(), bound, costs_.end());
     limit_m_ = std::max(limit_m_, double(*bound));
     for (uint32_t p : alive_)
@@ -214,7 +230,7 @@ void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& change
     bool is_within = chosen.seam_error.is_within(seams_), has_slid = chosen.seam_error.uv_texels > seams_.uv_texels;
     chosen.is_refused = !chosen.measured.faces_its_source || !is_within;
     if (!is_within) chosen.refused_by = has_slid ? Hindrance::texels : Hindrance::degrees;
-    bool may_be_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+    bool may_be_made = !chosen.is_refused && chosen.worst_m <= most_allowed_m();
     if (may_be_made) chosen.turned_face = find_turned_face(chosen, fan);
     chosen.is_refused |= chosen.turned_face != kNone;
 }
@@ -259,11 +275,11 @@ void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog
 void Passes::decide(CollapseLog& log) {
     Stopwatch watch(report_.selection_s);
     size_t made_before = log.gone.size();
-    double least_waiting_m = kForbidden_m;
+    double least_waiting_m = kForbidden_m, most_m = most_allowed_m();
     for (size_t i = 0; i < chosen_.size(); ++i) {
         Chosen& chosen = chosen_[i];
         Candidate& candidate = candidates_[chosen.gone];
-        chosen.is_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+        chosen.is_made = !chosen.is_refused && chosen.worst_m <= most_m;
         if (chosen.turned_face != kNone) refused_.add(fans_[i].fan, chosen.turned_face);
         if (chosen.is_refused) {
             if (mesh_.seams_move)
@@ -273,7 +289,7 @@ void Passes::decide(CollapseLog& log) {
             ++report_.refused_count;
             refused_by_[chosen.gone] = chosen.refused_by;
         } else if (!chosen.is_made) {
-            candidate.cost_m = chosen.worst_m / kWorst * kFloatAllowance;
+            candidate.cost_m = chosen.worst_m / most_m * limit_m_ * kFloatAllowance;
             least_waiting_m = std::min(least_waiting_m, candidate.cost_m);
             ++report_.postponed_count;
         } else {

@@ -40,6 +40,8 @@ class Passes {
         TurnedVertices turned;
     };
 
+    bool is_coarse() const;
+    double most_allowed_m() const;
     void find_queue();
     void guess_candidates();
     void raise_limit();
@@ -69,7 +71,7 @@ class Passes {
     double slack_m_ = 0;
     std::vector<float> face_error_m_;  // [F] of all that is drawn where the face is
     uint64_t face_count_ = 0;
-    double limit_m_ = 0;
+    double limit_m_ = 0, size_m_ = 0;  // of the pass; of the mesh
 
     std::vector<uint32_t> alive_;                   // positions that may still go
     std::vector<Candidate> candidates_;             // [P]
