@@ -8,6 +8,7 @@
 
 #include "formats/caveclod.h"
 #include "formats/result.h"
+#include "tools/bake/caveclod/collapse_rules.h"
 #include "tools/bake/caveclod/groups.h"
 #include "tools/bake/caveclod/seam_error.h"
 #include "tools/bake/mesh.h"
@@ -36,7 +37,8 @@ struct SimplifyReport {
     uint64_t pass_count = 0, collapse_count = 0, postponed_count = 0, refused_count = 0;
     uint32_t depth = 0;  // of the longest chain of splits that need one another
     uint64_t need_count = 0;
-    std::array<uint64_t, kHindranceCount> hindrances{};  // positions of the coarsest cut by what keeps them (Hindrance)
+    HindranceCounts hindrances{};    // positions of the coarsest cut by what keeps them
+    std::vector<float> own_error_m;  // [S] what each split's collapse was measured at; the hierarchy's error_m is never less
     double greatest_error_m = 0;
     SeamError seam_error;  // the worst of any face that a cut can hold
     double greatest_seam_shift_m = 0;
