@@ -196,6 +196,10 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
                      "Bits of each coordinate; the rounding counts towards every error")
         ->check(CLI::Range(8, 20))
         ->capture_default_str();
+    verb->add_flag(
+        "--keep-thin", args.choices.bake.simplify.keeps_thin,
+        "Keep masts, railings and wires until they are a fraction of a pixel wide: what would flatten them is stated at 16 "
+        "times what it takes");
     caveclod::SeamBudget& seams = args.choices.bake.simplify.seams;
     verb->add_option("--seams", args.seams,
                      "strict: every drawn corner has attributes that the source has there. budgeted: seams may move, by no more "

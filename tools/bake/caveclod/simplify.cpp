@@ -27,7 +27,7 @@ Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, 
     }();
     if (!working) return tl::unexpected(working.error());
     CollapseLog log;
-    Passes passes(*working, options.seams, counted);
+    Passes passes(*working, options, counted);
     while (passes.run(options.least_face_count, log)) progress(share_done(passes.face_count(), mesh.faces.size()));
     Result<Hierarchy> made = [&] {
         Stopwatch watch(counted.rows_s);

@@ -9,6 +9,7 @@
 #include "formats/parallel.h"
 #include "tools/bake/caveclod/attribute_deviation.h"
 #include "tools/bake/caveclod/stopwatch.h"
+#include "tools/bake/caveclod/thickness.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -50,9 +51,9 @@ SourceParts parts_of(const WorkingMesh& mesh) {
 
 }  // namespace
 
-Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& report)
+Passes::Passes(WorkingMesh& mesh, const SimplifyOptions& options, SimplifyReport& report)
     : mesh_(mesh),
-      seams_(seams),
+      seams_(options.seams),
       report_(report),
       source_({}, {}),
       refused_(mesh.some_corner.size()),
@@ -68,6 +69,7 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
     size_m_ = double(glm::length(high - low));
     limit_m_ = kLeastLimitShare * size_m_;
+    if (options.keeps_thin) find_thin_things(size_m_);
     size_t position_count = mesh.some_corner.size();
     for (uint32_t p = 0; p < position_count; ++p)
         if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
@@ -76,6 +78,14 @@ Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& repor
     refused_by_.assign(position_count, Hindrance::turned);
     touched_in_.assign(position_count, 0);
     target_in_.assign(position_count, 0);
+}
+
+void Passes::find_thin_things(double size_m) {
+    std::vector<Triangle> faces;
+    for (const WorkingFace& face : mesh_.faces)
+        faces.push_back({mesh_.at(face.position[0]), mesh_.at(face.position[1]), mesh_.at(face.position[2])});
+    std::vector<float> thickness_m = thickness_of_positions(mesh_, TriangleTree(faces), slack_m_, kThinnestShare * size_m);
+    for (size_t p = 0; p < thickness_m.size(); ++p) map_.may_lose_m[p] = float(kMostThinning) * thickness_m[p];
 }
 
 bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
@@ -222,11 +232,12 @@ void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& change
     const Fan& fan = prepared.fan;
     chosen.measured = measure_collapse(map_, mesh_, fan, chosen.fan, changes);
     uint32_t place = map_.placement[chosen.gone].place;
-    chosen.worst_m = std::max(chosen.measured.error_m, attribute_deviation_m(mesh_, fan, prepared.turned, place));
+    chosen.stated_m = std::max(chosen.measured.error_m, kThinningWeight * chosen.measured.thinning_m);
     chosen.fan_error_m = chosen.measured.error_m;
     for (uint32_t i = 0; i < fan.count; ++i)
         chosen.fan_error_m = std::max(chosen.fan_error_m, double(face_error_m_[fan.corner[i] / kCorners]));
     if (mesh_.seams_move) measure_seams(chosen, prepared, changes);
+    chosen.worst_m = std::max(chosen.stated_m, attribute_deviation_m(mesh_, fan, prepared.turned, place));
     bool is_within = chosen.seam_error.is_within(seams_), has_slid = chosen.seam_error.uv_texels > seams_.uv_texels;
     chosen.is_refused = !chosen.measured.faces_its_source || !is_within;
     if (!is_within) chosen.refused_by = has_slid ? Hindrance::texels : Hindrance::degrees;
@@ -240,7 +251,7 @@ void Passes::measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapC
     for (uint32_t v : changes.inside) places.push_back(map_.placement[v].place);
     chosen.seam_error = seam_error(mesh_, prepared.fan, prepared.turned, changes.inside, places, seams_);
     chosen.seam_shift_m = seam_shift_m(mesh_, prepared.fan, prepared.turned);
-    chosen.worst_m = std::max(chosen.worst_m, chosen.seam_shift_m);
+    chosen.stated_m = std::max(chosen.stated_m, chosen.seam_shift_m);
 }
 
 // Every point of a new face is where the map has moved some point of the source, so some source is within the fan's error of it.
@@ -261,7 +272,7 @@ void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog
     const Fan& fan = prepared.fan;
     log.gone.push_back(chosen.gone);
     log.kept.push_back(chosen.kept);
-    log.error_m.push_back(float_at_least(std::max(chosen.measured.error_m, chosen.seam_shift_m)));
+    log.error_m.push_back(float_at_least(chosen.stated_m));
     report_.seam_error.include(chosen.seam_error);
     report_.greatest_seam_shift_m = std::max(report_.greatest_seam_shift_m, chosen.seam_shift_m);
     for (uint32_t i = 0; i < fan.count; ++i) {

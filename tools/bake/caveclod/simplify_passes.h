@@ -13,7 +13,7 @@ namespace overlook::caveclod {
 class Passes {
   public:
     // face_count: of the mesh; quadrics and map are made here.
-    Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& report);
+    Passes(WorkingMesh& mesh, const SimplifyOptions& options, SimplifyReport& report);
 
     // Makes one pass; false when there is nothing left to collapse.
     bool run(uint64_t least_face_count, CollapseLog& log);
@@ -26,7 +26,8 @@ class Passes {
     struct Chosen {
         uint32_t gone = kNone, kept = kNone, fan = kNone;
         Measured measured;
-        double worst_m = 0;      // of the error and what attributes lose
+        double stated_m = 0;     // of the error, what seams shift and what is thinned
+        double worst_m = 0;      // of that and what attributes lose
         double fan_error_m = 0;  // of all that is drawn in the fan afterwards
         double seam_shift_m = 0;
         SeamError seam_error;
@@ -42,6 +43,7 @@ class Passes {
 
     bool is_coarse() const;
     double most_allowed_m() const;
+    void find_thin_things(double size_m);
     void find_queue();
     void guess_candidates();
     void raise_limit();
