@@ -1,8 +1,8 @@
 // Baked chains of discrete levels of detail: a few whole representations of one thing, finest first, each with a bound of how far
 // it lies from the finest, drawn by the thousand (runtime/discrete).
 //
-// Based on: J. Clark, Hierarchical Geometric Models for Visible Surface Algorithms, 1976; D. Scherzer, M. Wimmer, Frame Sequential
-// Interpolation for Discrete Level-of-Detail Rendering, 2008 (visibility textures).
+// Based on: J. Clark, Hierarchical Geometric Models for Visible Surface Algorithms, 1976; D. Scherzer, M. Wimmer, Frame
+// Sequential Interpolation for Discrete Level-of-Detail Rendering, 2008 (visibility textures).
 #pragma once
 
 #include <array>
@@ -49,8 +49,8 @@ enum class Rung : uint32_t {
 
 struct Level {
     Rung rung = Rung::mesh;
-    // Bounds the two-sided distance between what is drawn and level 0, whatever the clip's time; 0 of level 0. Never less than the
-    // finer level's.
+    // Bounds the two-sided distance between what is drawn and level 0, whatever the clip's time; 0 of level 0. Never less than
+    // the finer level's.
     float error_m = 0;
     // Of level 0's area, what is lost beyond that (leaves that are gone as a whole): 0..1. Never less than the finer level's.
     float lost_area_share = 0;
@@ -63,7 +63,8 @@ struct Level {
     bool operator==(const Level&) const = default;
 };
 
-// Where a part is at a time: first turned, then moved, relative to where it is at rest.
+// Where a part is at a time: first turned about the world's origin (in Part::poses: about its pivot), then moved, relative to
+// where it is at rest.
 struct Pose {
     glm::quat turn{1, 0, 0, 0};  // of length 1
     glm::vec3 move_m{0};
@@ -76,10 +77,12 @@ struct Part {
     std::string name;         // UTF-8
     std::vector<float> at_s;  // keys, ascending from 0 to the clip's end; none: it rests
     std::vector<Pose> poses;  // [at_s]; between two, turned along the shorter arc and moved evenly (slerp, lerp)
+    glm::vec3 pivot_m{0};     // what its poses turn about, in the chain's own world
 
     bool operator==(const Part&) const = default;
 };
-// The clip repeats. at_s: any finite time.
+// About the world's origin, whatever the part's pivot: place = turn * place at rest + move_m. The clip repeats. at_s: any finite
+// time.
 Pose pose_at(const Part& part, double clip_s, double at_s);
 
 // Which parts of a thing come first when a level fades in: a number 0..255 for each place of the thing at rest.
@@ -106,6 +109,8 @@ struct Chain {
     std::vector<Level> levels;                // 1..kMostLevels, finest first
     std::vector<Part> parts{Part{}};
     double clip_s = 0;  // how long it is; 0: nothing moves
+    // Bounds the two-sided distance between level 0 and what it was baked from.
+    double finest_error_m = 0;
     // All that is ever drawn, of any level at any time, lies within radius_m of middle_m (metres in the chain's own world).
     glm::dvec3 middle_m{0};
     double radius_m = 0;
@@ -115,12 +120,12 @@ struct Chain {
 
 // Where a vertex rests, in the chain's own world.
 inline glm::dvec3 position_m(const Chain& chain, const Vertex& vertex) {
-    return chain.origin_m +
-           chain.position_step_m * glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]);
+    return chain.origin_m + chain.position_step_m * glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]);
 }
 
-// Adds the chain's sections to a baked file. Vertices and indices go through meshoptimizer's codecs. Same chain, same bytes.
-// Exit::our_bug if it breaks a rule of its own: "a chain to write has ...".
+// Adds the chain's sections to a baked file. Vertices and indices go through meshoptimizer's codecs; a triangle may come back
+// with its corners turned round (b, c, a). Same chain, same bytes. Exit::our_bug if it breaks a rule of its own: "a chain to
+// write has ...".
 Result<void> write(container::Writer& writer, const Chain& chain);
 
 // The file may be hostile; every failure is Exit::bad_input and names file, rule and place: "tree.ovl: D7: level 2: vertex 9

@@ -24,6 +24,7 @@ Pose pose_at(const Part& part, double clip_s, double at_s) {
     float share = span_s > 0 ? float(std::clamp((time_s - double(part.at_s[before])) / span_s, 0.0, 1.0)) : 0.0f;
     Pose pose = between(part.poses[before], part.poses[after], share);
     pose.turn = glm::normalize(pose.turn);
+    pose.move_m += part.pivot_m - pose.turn * part.pivot_m;
     return pose;
 }
 

@@ -57,4 +57,33 @@ bool meshopt_unpack(std::span<const std::byte> packed, std::span<uint32_t> value
     return true;
 }
 
+std::vector<std::byte> meshopt_packed_records(std::span<const std::byte> records, size_t record_bytes) {
+    assert(!records.empty() && record_bytes % 4 == 0 && record_bytes <= 256 && records.size() % record_bytes == 0);
+    size_t count = records.size() / record_bytes;
+    std::vector<std::byte> packed(meshopt_encodeVertexBufferBound(count, record_bytes));
+    packed.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(packed.data()), packed.size(), records.data(),
+                                             count, record_bytes));
+    return packed;
+}
+
+bool meshopt_unpack_records(std::span<const std::byte> packed, size_t record_bytes, std::span<std::byte> records) {
+    if (records.empty() || packed.empty()) return false;
+    return meshopt_decodeVertexBuffer(records.data(), records.size() / record_bytes, record_bytes,
+                                      reinterpret_cast<const unsigned char*>(packed.data()), packed.size()) == 0;
+}
+
+std::vector<std::byte> meshopt_packed_triangles(std::span<const uint32_t> indices, size_t vertex_count) {
+    assert(!indices.empty() && indices.size() % 3 == 0);
+    std::vector<std::byte> packed(meshopt_encodeIndexBufferBound(indices.size(), vertex_count));
+    packed.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(packed.data()), packed.size(), indices.data(),
+                                            indices.size()));
+    return packed;
+}
+
+bool meshopt_unpack_triangles(std::span<const std::byte> packed, std::span<uint32_t> indices) {
+    if (indices.empty() || indices.size() % 3 != 0 || packed.empty()) return false;
+    return meshopt_decodeIndexBuffer(indices.data(), indices.size(), sizeof(uint32_t),
+                                     reinterpret_cast<const unsigned char*>(packed.data()), packed.size()) == 0;
+}
+
 }  // namespace overlook

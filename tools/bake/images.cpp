@@ -282,15 +282,20 @@ std::optional<PictureSize> picture_size(const std::string& name, std::span<const
 }
 
 Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image) {
+    return png_bytes(image.width, image.height, 3, image.pixels);
+}
+
+Result<std::vector<std::byte>> png_bytes(uint32_t width, uint32_t height, int channels, std::span<const uint8_t> pixels) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    ImageSpec spec(int(image.width), int(image.height), 3, TypeDesc::UINT8);
+    ImageSpec spec(int(width), int(height), channels, TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
     bool is_written = output && output->set_ioproxy(&memory) && output->open("picture.png", spec) &&
-                      output->write_image(TypeDesc::UINT8, image.pixels.data()) && output->close();
+                      output->write_image(TypeDesc::UINT8, pixels.data()) && output->close();
     if (!is_written)
-        return cannot_write("a picture of {} x {} pixels cannot be written as PNG: {}", image.width, image.height,
+        return cannot_write("a picture of {} x {} pixels cannot be written as PNG: {}", width, height,
                             gist(output ? output->geterror() : OIIO::geterror()));
     std::span<const std::byte> written = std::as_bytes(std::span(bytes));
     return std::vector<std::byte>(written.begin(), written.end());

@@ -41,5 +41,7 @@ std::optional<PictureSize> picture_size(const std::string& name, std::span<const
 // A picture as a PNG file's bytes: 8-bit RGB, sRGB. width and height >= 1. Same picture, same bytes: no date, no program's name.
 // Fails with Exit::cannot_write: "a picture of 512 x 512 pixels cannot be written as PNG: ..." with the library's reason.
 Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image);
+// The same of pixels [height, width, channels]; 4 channels: the last is opacity, which the colours are not multiplied by.
+Result<std::vector<std::byte>> png_bytes(uint32_t width, uint32_t height, int channels, std::span<const uint8_t> pixels);
 
 }  // namespace overlook

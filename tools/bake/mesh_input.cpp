@@ -44,6 +44,7 @@ Reader reader_of(const InputFile& file) {
 void stand_up(Soup& soup) {
     for (glm::dvec3& p : soup.positions) p = {p.x, -p.z, p.y};
     for (glm::vec3& n : soup.mesh.normals) n = {n.x, -n.z, n.y};
+    stand_up(soup.motion);
 }
 
 Result<MeshFile> read(const InputFile& file) {

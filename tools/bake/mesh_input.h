@@ -6,6 +6,7 @@
 
 #include "formats/result.h"
 #include "tools/bake/mesh.h"
+#include "tools/bake/mesh_motion.h"
 #include "tools/bake/mesh_report.h"
 
 namespace overlook::mesh {
@@ -20,6 +21,7 @@ enum class Up : uint8_t {
 struct Options {
     double metres_per_unit = 1;  // the file's unit of length; > 0
     Up up = Up::automatic;
+    uint32_t lod = 0;            // of glTF nodes with MSFT_lod: 0 the node itself, else the lod-th of those named (or the last)
     bool reads_textures = true;  // whether pictures beside the file are read into Surface::texture_bytes
 };
 
@@ -31,6 +33,7 @@ constexpr double kMostExtent_m = 1e12;
 struct MeshFile {
     Mesh mesh;
     MeshReport report;
+    Motion motion;  // glTF: its first animation, as far as nodes move rigidly by it; metres, axes as the mesh's
 };
 
 // Reads a mesh and repairs it (see repair). Known by its content, and by the ending where the content does not tell:
@@ -41,8 +44,9 @@ struct MeshFile {
 // - OFF, with N, C and ST before it, ascii;
 // - STL, ascii and binary;
 // - glTF 2.0, as .glb or .gltf with its buffers beside or inside: the default scene's nodes, all modes of triangles, sparse
-//   accessors, KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_mesh_quantization, KHR_texture_transform (applied);
-//   skins and morphs rest in their first pose. `uvs` are the set that the colour texture uses.
+//   accessors, KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_mesh_quantization, KHR_texture_transform (applied),
+//   MSFT_lod (Options::lod), the first animation's moves of nodes (MeshFile::motion; the mesh is at rest); skins and morphs rest
+//   in their first pose. `uvs` are the set that the colour texture uses.
 // The file may be hostile; what it names beside itself is looked for in its own folder only.
 // Fails with Exit::bad_input and one line that names the file and the place, among them:
 //   "a.obj: has no faces"

@@ -41,6 +41,7 @@ struct MeshReport {
     uint64_t triangle_count = 0;         // ... cut into triangles
     uint64_t file_position_count = 0;    // positions as written (glTF: by node that draws them)
     uint64_t strip_glue_count = 0;       // triangles of strips and fans with an index twice, which only lead on: no faces
+    uint32_t lod_count = 0;              // of glTF: the most levels that a node names besides itself (MSFT_lod)
     uint64_t other_primitive_count = 0;  // points and lines, which have no face
 
     // What the mesh has.

@@ -1,5 +1,6 @@
 #include "formats/caveclod.h"
 #include "formats/container.h"
+#include "formats/discrete.h"
 #include "formats/terrain.h"
 #include "tools/baked/verbs.h"
 
@@ -8,6 +9,11 @@ namespace overlook::baked {
 int export_cut(const ExportArgs& args, const command::Common& common) {
     auto file = container::Reader::open(args.file);
     if (!file) return command::fail("baked export", file.error());
+    if (file->kind() == discrete::kKind) return export_discrete(args, *file, common);
+    if (args.error_m < 0) return command::fail("baked export", Error{Exit::bad_command, "--error-m is required"});
+    if (args.level >= 0)
+        return command::fail("baked export",
+                             Error{Exit::bad_command, fmt::format("{}: has no levels; leave --level out", args.file)});
     return file->kind() == caveclod::kKind ? export_mesh(args, *file, common) : export_terrain(args, *file, common);
 }
 

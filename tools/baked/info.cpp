@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "formats/caveclod.h"
 #include "formats/container.h"
 #include "formats/numbers.h"
 #include "formats/terrain.h"
+#include "tools/baked/info_discrete.h"
 #include "tools/baked/verbs.h"
 
 namespace overlook::baked {
@@ -77,7 +79,8 @@ ordered_json mesh_json(const caveclod::Hierarchy& h, uint64_t file_bytes) {
     for (uint16_t id : h.group_packed) packed = std::max(packed, id);
     ordered_json surfaces = ordered_json::array();
     for (const caveclod::Surface& surface : h.surfaces)
-        surfaces.push_back({{"name", surface.name}, {"texture", surface.texture}, {"texture_bytes", surface.texture_bytes.size()}});
+        surfaces.push_back(
+            {{"name", surface.name}, {"texture", surface.texture}, {"texture_bytes", surface.texture_bytes.size()}});
     return {{"triangles", h.face_positions.size()},
             {"triangles_coarsest", h.base_face_count},
             {"positions", h.positions_m.size()},
@@ -103,7 +106,7 @@ void print_mesh(const ordered_json& m) {
     fmt::print("size: {:.1f} bits a triangle\n", m["bits_per_triangle"].get<double>());
 }
 
-void print_text(const ordered_json& json) {
+void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
@@ -129,6 +132,7 @@ void print_text(const ordered_json& json) {
                        t["place"]["centre_longitude_deg"].get<double>(), 100 * t["place"]["scale_distortion"].get<double>());
     }
     if (json.contains("mesh")) print_mesh(json["mesh"]);
+    if (chain) print_chain(*chain);
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
@@ -166,11 +170,18 @@ int info(const InfoArgs& args, const command::Common& common) {
             if (section.tag != container::tag("MSUR")) hierarchy_bytes += section.stored_bytes;
         json["mesh"] = mesh_json(*read, hierarchy_bytes);
     }
+    std::optional<discrete::Chain> chain;
+    if (file->kind() == discrete::kKind) {
+        auto read = discrete::read(*file);
+        if (!read) return command::fail("baked info", read.error());
+        json["chain"] = ordered_json::parse(chain_json(*read));
+        if (!common.json) chain = std::move(*read);
+    }
     json["provenance"] = provenance_json(*provenance);
     if (common.json)
         fmt::print("{}\n", json.dump(2));
     else
-        print_text(json);
+        print_text(json, chain);
     return int(Exit::done);
 }
 

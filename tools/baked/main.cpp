@@ -22,7 +22,10 @@ int main(int argc, char** argv) {
         "verify",
         "Re-proves a file's promises against the elevation model or the mesh that it was baked from; exit 1 if one is broken");
     verify_verb->add_option("FILE", verify.file, "A baked file")->required();
-    verify_verb->add_option("--source", verify.source, "The elevation model or the mesh it was baked from")->required();
+    verify_verb
+        ->add_option("--source", verify.sources,
+                     "The elevation model or the mesh it was baked from; of levels made by hand all, finest first")
+        ->required();
     verify_verb
         ->add_option("--error-m", verify.error_m,
                      "Of a terrain: tolerances in metres at which a whole cut is checked; may be repeated (default 100, 50, 20, "
@@ -39,9 +42,11 @@ int main(int argc, char** argv) {
     CLI::App* export_verb = app.add_subcommand("export", "Writes the triangles of one cut as a mesh (.ply, .glb)");
     export_verb->add_option("FILE", cut.file, "A baked file")->required();
     export_verb
-        ->add_option("--error-m", cut.error_m, "Greatest distance in metres between the cut and its source (of a terrain: vertical, to any sample)")
-        ->required()
+        ->add_option("--error-m", cut.error_m,
+                     "Greatest distance in metres between the cut and its source (of a terrain: vertical, to any sample; of a "
+                     "chain of levels: to level 0)")
         ->check(command::number_in(0.0, 1e6));
+    export_verb->add_option("--level", cut.level, "Of a chain of levels: which, 0 is the finest")->check(CLI::Range(0, 31));
     export_verb->add_option("-o,--output", cut.output, "The mesh: .ply or .glb")->required();
     export_verb
         ->add_option("--space", cut.space,
@@ -50,9 +55,10 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({"local", "raster"}))
         ->capture_default_str();
     export_verb
-        ->add_option("--colour", cut.colour,
-                     "Of a mesh. source: its own colours. group: one for each surface group. id: one for each packed id of groups. "
-                     "class: free green, sharp yellow, rigid red")
+        ->add_option(
+            "--colour", cut.colour,
+            "Of a mesh. source: its own colours. group: one for each surface group. id: one for each packed id of groups. "
+            "class: free green, sharp yellow, rigid red")
         ->check(CLI::IsMember({"source", "group", "id", "class"}))
         ->capture_default_str();
 

@@ -15,9 +15,9 @@ struct InfoArgs {
 };
 struct VerifyArgs {
     std::string file;
-    std::string source;
-    std::vector<double> error_m;  // terrain: tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
-    uint32_t cuts = 200;          // mesh: how many random cuts to check
+    std::vector<std::string> sources;  // one; of levels made by hand, one for each
+    std::vector<double> error_m;       // terrain: tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
+    uint32_t cuts = 200;               // mesh: how many random cuts to check
 };
 struct DiffArgs {
     std::string a, b;
@@ -25,6 +25,7 @@ struct DiffArgs {
 struct ExportArgs {
     std::string file;
     double error_m = -1;
+    int64_t level = -1;  // of a chain; -1: the coarsest within error_m
     std::string output;
     std::string space = "local";
     std::string colour = "source";  // mesh: source, group, class
@@ -39,6 +40,8 @@ int export_cut(const ExportArgs& args, const command::Common& common);
 // The same for one kind of file, which is open.
 int verify_terrain(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
 int verify_mesh(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
+int verify_discrete(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
+int export_discrete(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 int export_terrain(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 int export_mesh(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 

@@ -1,5 +1,6 @@
 #include "formats/caveclod.h"
 #include "formats/container.h"
+#include "formats/discrete.h"
 #include "formats/terrain.h"
 #include "tools/baked/verbs.h"
 
@@ -11,6 +12,10 @@ int verify(const VerifyArgs& args, const command::Common& common) {
     if (!file) return command::fail(name, file.error());
     for (const container::Section& section : file->sections())
         if (auto intact = file->check(section); !intact) return command::fail(name, intact.error());
+    if (file->kind() == discrete::kKind) return verify_discrete(args, *file, common);
+    if (args.sources.size() > 1)
+        return command::fail(
+            name, Error{Exit::bad_command, fmt::format("{}: has one source, {} are given", args.file, args.sources.size())});
     return file->kind() == caveclod::kKind ? verify_mesh(args, *file, common) : verify_terrain(args, *file, common);
 }
 

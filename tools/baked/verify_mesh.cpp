@@ -70,7 +70,7 @@ Result<void> check_source(const container::Provenance& provenance, const mesh::M
     for (const container::InputIdentity& input : provenance.inputs)
         if (input.hash == source.source_hash) return {};
     std::string name = provenance.inputs.empty() ? "nothing" : provenance.inputs[0].name;
-    return bad_input("{}: is not what {} was baked from: that was {} with other bytes", args.source, args.file, name);
+    return bad_input("{}: is not what {} was baked from: that was {} with other bytes", args.sources[0], args.file, name);
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ int verify_mesh(const VerifyArgs& args, const container::Reader& file, const com
     if (!provenance) return command::fail(kName, provenance.error());
     auto choices = mesh::choices_from_words(*provenance);
     if (!choices) return command::fail(kName, Error{choices.error().exit, args.file + ": " + choices.error().message});
-    auto source = mesh::open_mesh(args.source, choices->input);
+    auto source = mesh::open_mesh(args.sources[0], choices->input);
     if (!source) return command::fail(kName, source.error());
     if (auto same = check_source(*provenance, source->report, args); !same) return command::fail(kName, same.error());
 

@@ -104,9 +104,9 @@ int verify_terrain(const VerifyArgs& args, const container::Reader& file, const 
     if (!provenance) return command::fail(name, provenance.error());
     auto options = dem::options_from_words(*provenance);
     if (!options) return command::fail(name, Error{options.error().exit, args.file + ": " + options.error().message});
-    auto dem = dem::open(args.source, *options);
+    auto dem = dem::open(args.sources[0], *options);
     if (!dem) return command::fail(name, dem.error());
-    if (auto same = check_source(*provenance, *dem, *terrain, args.file, args.source); !same)
+    if (auto same = check_source(*provenance, *dem, *terrain, args.file, args.sources[0]); !same)
         return command::fail(name, same.error());
 
     command::Progress progress(common, "proving");

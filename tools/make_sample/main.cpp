@@ -4,6 +4,7 @@
 
 #include "runtime/command/command.h"
 #include "tools/make_sample/sample_dem.h"
+#include "tools/make_sample/sample_instances.h"
 #include "tools/make_sample/sample_lod_sprite.h"
 #include "tools/make_sample/sample_objects.h"
 #include "tools/make_sample/sample_slopes.h"
@@ -114,6 +115,21 @@ int main(int argc, char** argv) {
         command::add_common(*objects.back(), common);
     }
 
+    std::vector<CLI::App*> crowds;
+    sample::InstancesOptions crowd_options;
+    for (const auto& [name, what] :
+         {std::pair("trees", "4,000 trees on a plain: tree-0.glb (93,000 triangles) to tree-4.glb (5,000)"),
+          std::pair("windmills", "4,000 windmills whose sails turn: windmill-0.glb (18,000 triangles) to windmill-3.glb (100)"),
+          std::pair("simple", "Spheres that become cubes: simple-0.glb, simple-1.glb")}) {
+        CLI::App* crowd = app.add_subcommand(name, std::string("A scene of the frame-sequential interpolation paper. ") + what +
+                                                       ", plain.glb, scene.json, flight.json, README.md");
+        crowd->add_option("-o,--output", folder, "Folder to write into")->required();
+        crowd->add_option("--count", crowd_options.count, "How many stand about (default 4,000; of simple 400)")
+            ->check(CLI::Range(1, 100000));
+        command::add_common(*crowd, common, command::Uses::seed);
+        crowds.push_back(crowd);
+    }
+
     const std::string writes = "mesh (OBJ), textures, recipe.toml, scene.json, flight-a.json to flight-d.json";
     std::vector<CLI::App*> terrains;
     std::string source;
@@ -131,6 +147,13 @@ int main(int argc, char** argv) {
 
     return command::run(app, common, argc, argv, [&] {
         if (slopes->parsed()) return say_files("slopes", sample::make_slopes(folder), common);
+        for (const CLI::App* crowd : crowds) {
+            if (!crowd->parsed()) continue;
+            bool is_default = crowd->get_option("--count")->empty();
+            if (is_default && crowd->get_name() == "simple") crowd_options.count = sample::kSimpleCount;
+            crowd_options.seed = common.seed;
+            return say_files(crowd->get_name(), sample::make_instances(crowd->get_name(), crowd_options, folder), common);
+        }
         for (const CLI::App* object : objects)
             if (object->parsed()) return say_files(object->get_name(), sample::make_object(object->get_name(), folder), common);
         for (const CLI::App* terrain : terrains)

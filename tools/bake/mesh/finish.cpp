@@ -158,7 +158,8 @@ Result<MeshFile> finish(Soup soup, const InputFile& file) {
     clean_attributes(soup.mesh, soup.report);
     repair(soup.mesh, soup.report);
     if (auto r = check_has_faces(soup.mesh, soup.report, file.path); !r) return tl::unexpected(r.error());
-    return MeshFile{std::move(soup.mesh), std::move(soup.report)};
+    scale(soup.motion, file.options.metres_per_unit);
+    return MeshFile{std::move(soup.mesh), std::move(soup.report), std::move(soup.motion)};
 }
 
 }  // namespace overlook::mesh

@@ -1,8 +1,10 @@
 // glTF files: the scene's nodes place the meshes' primitives.
 
+#include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
+#include "tools/bake/mesh/gltf_motion.h"
 #include "tools/bake/mesh/gltf_primitive.h"
 #include "tools/bake/mesh/soup.h"
 
@@ -18,6 +20,8 @@ class SceneReader {
           document_(document),
           buffers_(document, container, file),
           primitives_(document, buffers_, file.path),
+          motions_(document, buffers_, file.path),
+          above_(document.nodes.size(), kNone),
           meshes_(document.meshes.size()) {
         soup_.report.form = container.is_glb ? "GLB" : "glTF";
         soup_.report.notes = document.notes;
@@ -25,9 +29,11 @@ class SceneReader {
 
     Result<Soup> read() {
         for (const Material& material : document_.materials) add_surface(material);
+        if (auto r = motions_.read(); !r) return tl::unexpected(r.error());
         if (auto r = walk(); !r) return tl::unexpected(r.error());
         if (soup_.mesh.surfaces.empty()) soup_.mesh.surfaces.resize(1);
         drop_empty_pools();
+        if (!soup_.motion.is_empty()) soup_.motion.clip_s = motions_.clip_s();
         return std::move(soup_);
     }
 
@@ -35,31 +41,49 @@ class SceneReader {
     struct Visit {
         uint32_t node;
         glm::dmat4 parent;
+        uint32_t above, part;  // the parent, or kNone; the part that it belongs to
     };
 
     // Depth first, children in their order. A node has one parent at most, so each is visited once.
     Result<void> walk() {
         std::vector<uint8_t> is_visited(document_.nodes.size(), 0);
         std::vector<Visit> stack;
-        const auto push = [&](const std::vector<uint32_t>& nodes, const glm::dmat4& parent) {
-            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent});
+        const auto push = [&](const std::vector<uint32_t>& nodes, const glm::dmat4& parent, uint32_t above, uint32_t part) {
+            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent, above, part});
         };
-        push(document_.roots, glm::dmat4(1));
+        push(document_.roots, glm::dmat4(1), kNone, 0);
         while (!stack.empty()) {
-            const Visit visit = stack.back();
+            Visit visit = stack.back();
             stack.pop_back();
+            const std::vector<uint32_t>& lods = document_.nodes[visit.node].lods;
+            soup_.report.lod_count = std::max(soup_.report.lod_count, uint32_t(lods.size()));
+            if (!lods.empty() && file_.options.lod > 0) visit.node = lods[std::min<size_t>(file_.options.lod, lods.size()) - 1];
             if (is_visited[visit.node]++ != 0)
                 return bad_input("{}: node {} has two parents, or is its own ancestor", file_.path, visit.node);
             const Node& node = document_.nodes[visit.node];
             const glm::dmat4 transform = visit.parent * node.transform;
+            above_[visit.node] = visit.above;
+            const uint32_t part = motions_.moves(visit.node) ? part_of(visit) : visit.part;
             if (node.mesh != kNone)
-                if (auto r = place_mesh(node.mesh, transform); !r) return r;
-            push(node.children, transform);
+                if (auto r = place_mesh(node.mesh, transform, part); !r) return r;
+            push(node.children, transform, visit.node, part);
         }
         return {};
     }
 
-    Result<void> place_mesh(uint32_t mesh, const glm::dmat4& transform) {
+    // A part of its own; what does not move rigidly goes with its parent.
+    uint32_t part_of(const Visit& visit) {
+        std::vector<uint32_t> ancestors;
+        for (uint32_t node = visit.node; node != kNone; node = above_[node]) ancestors.push_back(node);
+        std::reverse(ancestors.begin(), ancestors.end());
+        std::optional<Motion::Part> part = motions_.part_of(ancestors, soup_.motion.parts.size(), soup_.report.notes);
+        if (!part) return visit.part;
+        soup_.motion.parts.push_back(std::move(*part));
+        return uint32_t(soup_.motion.parts.size());
+    }
+
+    Result<void> place_mesh(uint32_t mesh, const glm::dmat4& transform, uint32_t part) {
+        soup_.motion.ranges.emplace_back(uint32_t(soup_.report.triangle_count), part);
         if (!meshes_[mesh]) {
             std::vector<Triangles> read;
             for (size_t i = 0; i < document_.meshes[mesh].size(); ++i) {
@@ -193,6 +217,8 @@ class SceneReader {
     const Document& document_;
     Buffers buffers_;
     PrimitiveReader primitives_;
+    MotionReader motions_;
+    std::vector<uint32_t> above_;                                // [nodes] each visited one's parent, or kNone
     std::vector<std::optional<std::vector<Triangles>>> meshes_;  // read on first use
     Soup soup_;
 };

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tools/bake/mesh/gltf_animation.h"
 #include "tools/bake/mesh/gltf_json.h"
 #include "tools/bake/mesh/gltf_material.h"
 
@@ -18,10 +19,11 @@ using Json = nlohmann::json;
 
 // Extensions without which a file cannot be shown rightly, and that are read; or that change nothing of what is baked.
 bool is_read(const std::string& extension) {
-    static constexpr std::string_view kRead[] = {
-        "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",
-        "KHR_texture_transform",      "KHR_texture_basisu",      "EXT_texture_webp",
-        "EXT_texture_avif",           "KHR_lights_punctual",     "KHR_animation_pointer"};
+    static constexpr std::string_view kRead[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                 "KHR_mesh_quantization",      "KHR_texture_transform",
+                                                 "KHR_texture_basisu",         "EXT_texture_webp",
+                                                 "EXT_texture_avif",           "KHR_lights_punctual",
+                                                 "KHR_animation_pointer",      "MSFT_lod"};
     return std::find(std::begin(kRead), std::end(kRead), extension) != std::end(kRead) || extension.starts_with("KHR_materials_");
 }
 
@@ -40,6 +42,7 @@ class DocumentReader {
         node_count_ = values_.array(root_, "nodes", "").size();
         each("nodes", [&](const Json& o, const std::string& at) { read_node(o, at); });
         read_scene();
+        document_.channels = read_channels<Json>(root_, node_count_, document_.accessors.size(), values_, unread_);
         note_what_is_not_read();
         if (!values_.is_right()) return values_.mistake();
         return std::move(document_);
@@ -180,28 +183,43 @@ class DocumentReader {
 
     void read_node(const Json& o, const std::string& at) {
         Node node;
+        node.name = values_.text(o, "name");
         node.mesh = values_.reference(o, "mesh", document_.meshes.size(), at);
-        for (const Json& child : values_.array(o, "children", at)) {
-            const bool is_there = child.is_number_unsigned() && child.get<uint64_t>() < node_count_;
-            if (!is_there) values_.fail(at + "/children", "names a node that does not exist");
-            if (is_there) node.children.push_back(child.get<uint32_t>());
-        }
-        node.transform = read_transform(o, at);
+        node.children = read_nodes(o, "children", at);
+        node.lods = read_nodes(values_.member(values_.member(o, "extensions"), "MSFT_lod"), "ids", at);
+        read_transform(o, at, node);
         has_instances_ = has_instances_ || !values_.member(values_.member(o, "extensions"), "EXT_mesh_gpu_instancing").is_null();
         document_.nodes.push_back(std::move(node));
     }
 
-    glm::dmat4 read_transform(const Json& o, const std::string& at) {
+    std::vector<uint32_t> read_nodes(const Json& o, const char* key, const std::string& at) {
+        std::vector<uint32_t> nodes;
+        for (const Json& node : values_.array(o, key, at)) {
+            const bool is_there = node.is_number_unsigned() && node.get<uint64_t>() < node_count_;
+            if (!is_there) values_.fail(at + "/" + key, "names a node that does not exist");
+            if (is_there) nodes.push_back(node.get<uint32_t>());
+        }
+        return nodes;
+    }
+
+    void read_transform(const Json& o, const std::string& at, Node& node) {
         double matrix[16];
-        if (values_.numbers(o, "matrix", matrix, 16, at)) return glm::make_mat4(matrix);
+        if (values_.numbers(o, "matrix", matrix, 16, at)) {
+            node.transform = glm::make_mat4(matrix);
+            return;
+        }
         double t[3] = {0, 0, 0}, r[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
         (void)values_.numbers(o, "translation", t, 3, at);
         const bool is_rotated = values_.numbers(o, "rotation", r, 4, at);
         (void)values_.numbers(o, "scale", s, 3, at);
-        glm::dmat4 transform = glm::translate(glm::dmat4(1), {t[0], t[1], t[2]});
+        node.translation = {t[0], t[1], t[2]}, node.scale = {s[0], s[1], s[2]};
+        node.transform = glm::translate(glm::dmat4(1), node.translation);
         const glm::dquat rotation(r[3], r[0], r[1], r[2]);
-        if (is_rotated && glm::length(rotation) > 0) transform *= glm::mat4_cast(glm::normalize(rotation));
-        return glm::scale(transform, {s[0], s[1], s[2]});
+        if (is_rotated && glm::length(rotation) > 0) {
+            node.rotation = glm::normalize(rotation);
+            node.transform *= glm::mat4_cast(node.rotation);
+        }
+        node.transform = glm::scale(node.transform, node.scale);
     }
 
     // The default scene, else the first; without scenes every node that is no child.
@@ -219,7 +237,8 @@ class DocumentReader {
         }
         std::vector<uint8_t> is_child(document_.nodes.size(), 0);
         for (const Node& node : document_.nodes)
-            for (const uint32_t child : node.children) is_child[child] = 1;
+            for (const std::vector<uint32_t>* below : {&node.children, &node.lods})
+                for (const uint32_t child : *below) is_child[child] = 1;
         for (uint32_t i = 0; i < is_child.size(); ++i)
             if (!is_child[i]) document_.roots.push_back(i);
     }
@@ -228,6 +247,7 @@ class DocumentReader {
         const auto note = [&](bool has, const char* what) {
             if (has) document_.notes.push_back(fmt::format("{}: {}", name_, what));
         };
+        for (const std::string& what : unread_) document_.notes.push_back(fmt::format("{}: its {}", name_, what));
         note(has_morphs_, "its morph targets are not read; the mesh is in its first shape");
         note(has_instances_, "its EXT_mesh_gpu_instancing is not read; each mesh stands once");
         note(!values_.array(root_, "skins", "").empty(), "its skins are not read; the mesh is in the pose that it was bound in");
@@ -238,6 +258,7 @@ class DocumentReader {
     Values<Json> values_;
     Document document_;
     size_t node_count_ = 0;
+    std::vector<std::string> unread_;
     bool has_morphs_ = false, has_instances_ = false;
 };
 

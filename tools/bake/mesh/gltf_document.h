@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -77,9 +78,22 @@ struct Primitive {
 };
 
 struct Node {
+    std::string name;
     std::vector<uint32_t> children;
     uint32_t mesh = kNone;
     glm::dmat4 transform{1};
+    // What transform is made of, unless the file has a matrix.
+    glm::dvec3 translation{0}, scale{1};
+    glm::dquat rotation{1, 0, 0, 0};
+    std::vector<uint32_t> lods;  // MSFT_lod: nodes that stand for it, finest first
+};
+
+// What moves a node in time.
+struct Channel {
+    enum class Way : uint8_t { linear, step, cubic };
+    uint32_t node = kNone, times = kNone, values = kNone;  // accessors
+    bool is_rotation = false;                              // else its translation
+    Way way = Way::linear;
 };
 
 struct Material {
@@ -100,7 +114,8 @@ struct Document {
     std::vector<Accessor> accessors;
     std::vector<std::vector<Primitive>> meshes;
     std::vector<Node> nodes;
-    std::vector<uint32_t> roots;  // nodes of the scene that is shown
+    std::vector<uint32_t> roots;    // nodes of the scene that is shown
+    std::vector<Channel> channels;  // of its first animation
     std::vector<Material> materials;
     std::vector<Image> images;
     std::vector<std::string> notes;  // what of the file is not read

@@ -9,6 +9,7 @@
 
 #include "tools/bake/mesh.h"
 #include "tools/bake/mesh_input.h"
+#include "tools/bake/mesh_motion.h"
 #include "tools/bake/mesh_report.h"
 
 namespace overlook::mesh {
@@ -19,6 +20,7 @@ struct Soup {
     std::vector<glm::dvec3> positions;  // in the file's unit, the faces' indices
     Mesh mesh;
     MeshReport report;
+    Motion motion;                             // in the file's unit
     std::unordered_set<std::string> textures;  // names whose bytes a surface has, or that are missing
 };
 

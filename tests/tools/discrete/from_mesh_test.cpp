@@ -1,0 +1,156 @@
+// Levels cut from a mesh: each within its bound of the finest, each much cheaper than the one before, foliage thinned as a whole.
+#include "tools/bake/discrete/from_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "formats/parallel.h"
+#include "tests/tools/discrete/shapes_for_tests.h"
+#include "tools/bake/discrete/from_levels.h"
+
+namespace overlook::discrete {
+namespace {
+
+MeshChainOptions budgeted() {
+    MeshChainOptions options;
+    options.bake.simplify.seams.moves = true;
+    return options;
+}
+
+Chain chain_of(const mesh::MeshFile& file, const MeshChainOptions& options, MeshChainReport& report) {
+    auto chain = chain_from_mesh(file, options, report, [](double) {});
+    EXPECT_TRUE(chain) << chain.error().message;
+    return chain ? *chain : Chain{};
+}
+
+// Every level's measured distance to level 0 is within what it states, which is no wild guess either.
+void expect_bounded(const Chain& chain, double least_share_of_promise) {
+    LevelsChainOptions options;
+    for (size_t k = 1; k < chain.levels.size(); ++k) {
+        caveclod::Distance off = distance_of_levels(chain, chain.levels[0], chain.levels[k], options);
+        double stated_m = double(chain.levels[k].error_m);
+        EXPECT_LE(off.least_m, stated_m) << "level " << k;
+        EXPECT_GE(off.most_m, stated_m * least_share_of_promise) << "level " << k;
+        EXPECT_GE(stated_m, double(chain.levels[k - 1].error_m));
+        EXPECT_GE(chain.levels[k].lost_area_share, chain.levels[k - 1].lost_area_share);
+    }
+}
+
+mesh::MeshFile ball(uint32_t rings, uint32_t sides) {
+    sample::ShapeMaker shapes({mesh::Surface()});
+    test::add_ball(shapes, 0, rings, sides, 1, 0.08);
+    return test::file_of(shapes.take());
+}
+
+TEST(ChainFromMesh, KeepsEveryBoundAndSavesAsMuchAsAsked) {
+    MeshChainReport report;
+    Chain chain = chain_of(ball(60, 80), budgeted(), report);
+    ASSERT_GE(chain.levels.size(), 5u);
+    EXPECT_EQ(chain.levels[0].triangle_count(), 60u * 80 * 2 + 160);
+    for (size_t k = 1; k < chain.levels.size(); ++k)
+        EXPECT_GE(double(chain.levels[k - 1].triangle_count()) / double(chain.levels[k].triangle_count()), 1.4);
+    EXPECT_LE(chain.levels.back().triangle_count(), 60u);
+    expect_bounded(chain, 0.3);
+    EXPECT_LT(chain.finest_error_m, 1e-4);
+}
+TEST(ChainFromMesh, SaysOfEveryLevelTriedWhyItIsThere) {
+    MeshChainReport report;
+    MeshChainOptions options = budgeted();
+    options.ladder.factor = 1.2;
+    Chain chain = chain_of(ball(30, 40), options, report);
+    size_t kept = 0;
+    for (const TriedLevel& tried : report.tried) {
+        kept += tried.verdict.is_kept;
+        EXPECT_FALSE(tried.verdict.why.empty());
+    }
+    EXPECT_EQ(kept, chain.levels.size());
+    EXPECT_GT(report.tried.size(), kept);
+}
+TEST(ChainFromMesh, HoldsEverythingInItsSphere) {
+    MeshChainReport report;
+    Chain chain = chain_of(ball(30, 40), budgeted(), report);
+    for (const Level& level : chain.levels)
+        for (const Vertex& v : level.vertices) EXPECT_LE(glm::distance(position_m(chain, v), chain.middle_m), chain.radius_m);
+}
+TEST(ChainFromMesh, IsTheSameForAnyNumberOfThreads) {
+    std::vector<Chain> chains;
+    for (unsigned threads : {1u, 4u}) {
+        set_thread_count(threads);
+        MeshChainReport report;
+        chains.push_back(chain_of(test::file_of(test::bush(300)), budgeted(), report));
+    }
+    set_thread_count(0);
+    EXPECT_EQ(chains[0].levels, chains[1].levels);
+}
+
+TEST(ChainOfFoliage, LosesWholeCardsWithinItsBoundAndStatesTheAreaThatIsGone) {
+    MeshChainReport report;
+    mesh::MeshFile file = test::file_of(test::bush(1500));
+    MeshChainOptions options = budgeted();
+    options.grows_foliage = false;
+    Chain chain = chain_of(file, options, report);
+    EXPECT_EQ(report.card_count, 1500u);
+    EXPECT_EQ(report.card_triangle_count, 3000u);
+    ASSERT_GE(chain.levels.size(), 4u);
+    expect_bounded(chain, 0.3);
+    double finest_m2 = 0;
+    for (const Level& level : chain.levels) {
+        uint64_t card_triangles = 0;
+        double area_m2 = 0;
+        for (const Draw& draw : level.draws) {
+            if (chain.surfaces[draw.surface].name != "leaves") continue;
+            card_triangles = draw.index_count / 3;
+        }
+        EXPECT_EQ(card_triangles % 2, 0u);
+        for (const caveclod::Triangle& t : triangles_of(chain, level))
+            area_m2 += glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2;
+        if (&level == &chain.levels[0]) finest_m2 = area_m2;
+        // The bark loses area too, but that is told by its distance.
+        EXPECT_LE(double(level.lost_area_share), 1 - area_m2 / finest_m2 + 1e-3);
+    }
+    EXPECT_GT(chain.levels.back().lost_area_share, 0.3f);
+}
+TEST(ChainOfFoliage, GrowsWhatStaysToKeepTheArea) {
+    mesh::MeshFile file = test::file_of(test::bush(1500));
+    MeshChainReport thin_report, grown_report;
+    MeshChainOptions thin = budgeted();
+    thin.grows_foliage = false;
+    Chain thinned = chain_of(file, thin, thin_report), grown = chain_of(file, budgeted(), grown_report);
+    expect_bounded(grown, 0.2);
+    ASSERT_EQ(thin_report.tried.size(), grown_report.tried.size());
+    double lost_thin = 0, lost_grown = 0;
+    for (size_t i = 1; i < thin_report.tried.size(); ++i)
+        lost_thin += thin_report.tried[i].lost_area_share, lost_grown += grown_report.tried[i].lost_area_share;
+    EXPECT_LT(lost_grown, 0.5 * lost_thin);
+}
+TEST(ChainOfFoliage, KeepsAllCardsWhereThatIsAsked) {
+    MeshChainReport report;
+    MeshChainOptions options = budgeted();
+    options.thins_foliage = false;
+    Chain chain = chain_of(test::file_of(test::bush(500)), options, report);
+    EXPECT_EQ(report.card_count, 0u);
+    EXPECT_GE(chain.levels.back().triangle_count(), 500u);
+    EXPECT_EQ(chain.levels.back().lost_area_share, 0);
+}
+TEST(Foliage, LosesTheSmallestOfNeighboursFirst) {
+    sample::ShapeMaker shapes({test::leaves()});
+    for (int i = 0; i < 64; ++i)
+        shapes.add_card(0, glm::dvec3(i, 0, 0), glm::dvec3(i % 2 == 0 ? 0.2 : 0.1, 0, 0), glm::dvec3(0, 0, 0.1), {0, -1, 0});
+    mesh::Mesh mesh = shapes.take();
+    Shape shape;
+    for (const glm::vec3& p : mesh.positions_m)
+        shape.vertices.push_back({glm::dvec3(p), 0, {0, 0, 1}, {0, 0}, {255, 255, 255, 255}});
+    for (const mesh::Corners& f : mesh.faces) shape.faces.push_back(f), shape.face_surface.push_back(0);
+    Foliage foliage(shape);
+    ASSERT_EQ(foliage.card_count(), 64u);
+    std::set<int> kept;
+    for (const ShapeVertex& v : foliage.thinned(32, 0).shape.vertices) kept.insert(int(std::lround(v.at_m.x)));
+    for (int i : kept) EXPECT_EQ(i % 2, 0);
+    EXPECT_EQ(kept.size(), 32u);
+    // Every lost card has its larger neighbour 1 m away; from its far corner to that one's edge it is 0.9 m at the most.
+    EXPECT_NEAR(foliage.thinned(32, 0).error_m, 0.9, 1e-6);
+}
+
+}  // namespace
+}  // namespace overlook::discrete

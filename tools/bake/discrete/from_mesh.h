@@ -1,0 +1,45 @@
+// A chain from one mesh: levels cut from the hierarchies of its parts, foliage thinned along with them.
+#pragma once
+
+#include <functional>
+
+#include "formats/result.h"
+#include "tools/bake/caveclod/bake.h"
+#include "tools/bake/discrete/foliage.h"
+#include "tools/bake/discrete/ladder.h"
+#include "tools/bake/discrete/pieces.h"
+#include "tools/bake/mesh_input.h"
+
+namespace overlook::discrete {
+
+struct MeshChainOptions {
+    caveclod::BakeOptions bake;  // its position_bits are not used: a chain has 16
+    CardOptions cards;
+    bool thins_foliage = true;  // cards may be lost, and other small pieces that hang together with nothing (components.h)
+    bool grows_foliage = true;  // what stays of them grows
+    LadderOptions ladder;
+};
+
+// A level that was tried.
+struct TriedLevel {
+    Candidate candidate;
+    double lost_area_share = 0;
+    Verdict verdict;
+};
+struct MeshChainReport {
+    uint64_t source_triangle_count = 0, part_count = 0, card_count = 0, card_triangle_count = 0;
+    double rounding_m = 0;
+    std::vector<TriedLevel> tried;  // finest first
+};
+
+// Of what a mesh's file moves, the chain's parts: part 0 rests.
+std::vector<Part> parts_of(const mesh::Motion& motion);
+
+// Bakes in memory. All levels come from one family: with a distance allowed, each part's solid pieces are cut from its hierarchy
+// within it, and each part's cards are lost and grow within it. The error of a level holds that distance as it came out, and
+// twice what laying it on 16 bits moved. A pure function of its arguments, for any number of threads. Fails as caveclod::bake
+// does, and with Exit::impossible for more than kMostParts parts.
+Result<Chain> chain_from_mesh(const mesh::MeshFile& file, const MeshChainOptions& options, MeshChainReport& report,
+                              const std::function<void(double)>& progress);
+
+}  // namespace overlook::discrete

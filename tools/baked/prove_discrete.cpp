@@ -1,0 +1,86 @@
+#include "tools/baked/prove_discrete.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/parallel.h"
+#include "tools/bake/discrete/from_levels.h"
+
+namespace overlook::discrete {
+namespace {
+
+constexpr double kRoundingShare = 1e-7;  // of the thing's size: what float positions and double arithmetic cannot tell apart
+constexpr int kTimes = 64;
+
+std::vector<caveclod::Triangle> triangles_of_source(const mesh::MeshFile& source) {
+    std::vector<caveclod::Triangle> triangles;
+    for (size_t f = 0; f < source.mesh.faces.size(); ++f) {
+        caveclod::Triangle& t = triangles.emplace_back();
+        for (size_t c = 0; c < 3; ++c) t[c] = source.mesh.origin_m + glm::dvec3(corner_m(source.mesh, f, c));
+    }
+    return triangles;
+}
+
+double area_of(const Chain& chain, const Level& level) {
+    double area_m2 = 0;
+    for (const caveclod::Triangle& t : triangles_of(chain, level))
+        area_m2 += glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2;
+    return area_m2;
+}
+
+double out_of_sphere_m(const Chain& chain) {
+    double most_m = 0;
+    for (uint32_t p = 1; p < chain.parts.size(); ++p)
+        for (int time = 0; time < kTimes; ++time) {
+            Pose pose = pose_at(chain.parts[p], chain.clip_s, chain.clip_s * time / kTimes);
+            glm::dquat turn(pose.turn);
+            for (const Level& level : chain.levels)
+                for (const Vertex& v : level.vertices) {
+                    if (v.part != p) continue;
+                    glm::dvec3 at_m = turn * position_m(chain, v) + glm::dvec3(pose.move_m);
+                    most_m = std::max(most_m, glm::distance(at_m, chain.middle_m) - chain.radius_m);
+                }
+        }
+    return most_m;
+}
+
+}  // namespace
+
+bool ChainProof::holds() const {
+    double slack_m = 1e-5 * (1 + finest_stated_m);
+    return !finest_is_broken && moved_most_m <= slack_m &&
+           std::none_of(levels.begin(), levels.end(), [](const LevelProof& level) { return level.is_broken; });
+}
+
+ChainProof prove(const Chain& chain, std::span<const mesh::MeshFile> sources, const std::function<void(double)>& progress) {
+    ChainProof proof;
+    proof.finest_stated_m = chain.finest_error_m;
+    double rounding_m = kRoundingShare * (chain.radius_m + glm::length(chain.middle_m));
+    LevelsChainOptions options;
+    for (size_t k = 0; k < sources.size(); ++k) {
+        caveclod::Distance off = caveclod::two_sided_distance(
+            caveclod::TriangleTree(triangles_of_source(sources[k])), caveclod::TriangleTree(triangles_of(chain, chain.levels[k])),
+            options.gap, std::max(chain.position_step_m / 8, rounding_m), options.most_steps);
+        proof.finest = {std::max(proof.finest.least_m, off.least_m), std::max(proof.finest.most_m, off.most_m)};
+        progress(0.3 * double(k + 1) / double(sources.size()));
+    }
+    proof.finest_is_broken = proof.finest.least_m > chain.finest_error_m * (1 + 1e-6) + rounding_m;
+    proof.moved_most_m = out_of_sphere_m(chain);
+
+    proof.levels.resize(chain.levels.size());
+    double finest_area_m2 = area_of(chain, chain.levels[0]);
+    parallel_ranges(chain.levels.size(), 1, [&](size_t k, size_t) {
+        const Level& level = chain.levels[k];
+        LevelProof& found = proof.levels[k];
+        found.triangle_count = level.triangle_count(), found.stated_m = double(level.error_m);
+        if (k > 0) found.measured = distance_of_levels(chain, chain.levels[0], level, options);
+        found.is_broken = found.measured.least_m > found.stated_m * (1 + 1e-6) + rounding_m;
+        found.is_proven = found.measured.most_m <= found.stated_m * (1 + 1e-6) + rounding_m;
+        found.stated_lost = double(level.lost_area_share);
+        found.lost = finest_area_m2 > 0 ? std::max(0.0, 1 - area_of(chain, level) / finest_area_m2) : 0;
+    });
+    progress(1);
+    return proof;
+}
+
+}  // namespace overlook::discrete
