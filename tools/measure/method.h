@@ -26,6 +26,7 @@ struct Counters {
     uint64_t key_triangle_count = 0;  // of the triangles, those drawn into keyframes
     uint64_t key_pixel_count = 0;     // of keyframes, drawn besides the picture's own
     uint64_t operation_count = 0;     // splits and collapses, of all cameras
+    uint64_t transition_count = 0;    // instances on their way from level to level
     uint64_t camera_bytes = 0;        // what cameras keep in main memory beside what they share
     uint64_t wrong_corner_count = 0;  // of triangles drawn with the attributes of another face
     double predicted_error_px = 0;
@@ -46,8 +47,8 @@ struct Sources {
 class Method {
   public:
     virtual ~Method() = default;
-    // Before the first frame: whatever later frames would do once, for a camera and a target like theirs, which is drawn over. They are
-    // the same as without.
+    // Before the first frame: whatever later frames would do once, for a camera and a target like theirs, which is drawn over.
+    // They are the same as without.
     virtual void prepare(const view::Camera& camera, const gl::Target& target) {
         static_cast<void>(camera);
         static_cast<void>(target);
