@@ -86,4 +86,17 @@ bool meshopt_unpack_triangles(std::span<const std::byte> packed, std::span<uint3
                                      reinterpret_cast<const unsigned char*>(packed.data()), packed.size()) == 0;
 }
 
+size_t meshopt_order(std::span<std::byte> records, size_t record_bytes, std::span<uint32_t> indices,
+                     std::span<const IndexRun> runs) {
+    size_t count = records.size() / record_bytes;
+    std::vector<uint32_t> remap(count);
+    count = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), records.data(), count, record_bytes);
+    std::vector<std::byte> welded(count * record_bytes);
+    meshopt_remapVertexBuffer(welded.data(), records.data(), remap.size(), record_bytes, remap.data());
+    meshopt_remapIndexBuffer(indices.data(), indices.data(), indices.size(), remap.data());
+    for (const IndexRun& run : runs)
+        meshopt_optimizeVertexCache(indices.data() + run.first, indices.data() + run.first, run.count, count);
+    return meshopt_optimizeVertexFetch(records.data(), indices.data(), indices.size(), welded.data(), count, record_bytes);
+}
+
 }  // namespace overlook

@@ -29,6 +29,15 @@ constexpr size_t kRecordBytesPerPackedByte = 64;
 std::vector<std::byte> meshopt_packed_triangles(std::span<const uint32_t> indices, size_t vertex_count);
 bool meshopt_unpack_triangles(std::span<const std::byte> packed, std::span<uint32_t> indices);
 
+// meshoptimizer's orders for what is drawn: equal records become one, the triangles of each run of indices go in an order that
+// suits vertex caches, records in the order of their use; unused ones go. Returns how many records are left, which stand first.
+// indices: 3n below the count of records; runs: one after the other, all of them.
+struct IndexRun {
+    uint32_t first = 0, count = 0;
+};
+size_t meshopt_order(std::span<std::byte> records, size_t record_bytes, std::span<uint32_t> indices,
+                     std::span<const IndexRun> runs);
+
 // Draco's symbol coding (rANS: J. Duda, 2013) over the same: the size of the low halves, those, and the
 // high halves unless all are 0; nothing if Draco cannot.
 std::optional<std::vector<std::byte>> draco_packed(std::span<const uint32_t> values);

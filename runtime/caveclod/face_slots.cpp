@@ -4,60 +4,23 @@
 #include <cassert>
 
 namespace overlook::caveclod {
-namespace {
-
-constexpr size_t kLeastTable = 64;
-
-// 85 % full at most.
-bool is_full(uint64_t count, size_t size) {
-    return count * 20 > uint64_t(size) * 17;
-}
-
-}  // namespace
 
 FaceSlots::FaceSlots(uint32_t surface_count, uint32_t slot_bits)
-    : slot_bits_(slot_bits),
-      slot_mask_(uint32_t((uint64_t(1) << slot_bits) - 1)),
-      surfaces_(surface_count),
-      table_(kLeastTable, kNone) {}
+    : slot_bits_(slot_bits), slot_mask_(uint32_t((uint64_t(1) << slot_bits) - 1)), surfaces_(surface_count) {}
 
-size_t FaceSlots::find(uint32_t face) const {
-    for (size_t place = home(face);; place = place + 1 == table_.size() ? 0 : place + 1) {
-        if (table_[place] == kNone) return kEmpty;
-        if (face_of(table_[place]) == face) return place;
+// Page by page, as they lie in memory.
+void FaceSlots::resize_table(uint64_t count) {
+    handles_.reset(count);
+    for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
+        const OneSurface& one = surfaces_[surface];
+        uint32_t first = surface << slot_bits_;
+        for (uint32_t slot = 0; slot < one.count; ++slot)
+            handles_.insert(one.pages[slot / kPageFaces]->faces[slot % kPageFaces], first | slot);
     }
-}
-
-void FaceSlots::insert(uint32_t face, uint32_t handle) {
-    size_t place = home(face);
-    while (table_[place] != kNone) place = place + 1 == table_.size() ? 0 : place + 1;
-    table_[place] = handle;
-}
-
-// What stands behind moves up as far as its home allows, so that no gap is left.
-void FaceSlots::erase(size_t place) {
-    size_t gap = place;
-    for (size_t at = place + 1 == table_.size() ? 0 : place + 1; table_[at] != kNone; at = at + 1 == table_.size() ? 0 : at + 1) {
-        size_t wanted = home(face_of(table_[at]));
-        size_t from_home = at >= wanted ? at - wanted : at + table_.size() - wanted;
-        size_t from_gap = at >= gap ? at - gap : at + table_.size() - gap;
-        if (from_home < from_gap) continue;
-        table_[gap] = table_[at];
-        gap = at;
-    }
-    table_[gap] = kNone;
-}
-
-void FaceSlots::grow() {
-    std::vector<uint32_t> handles;
-    table_.swap(handles);
-    table_.assign(handles.size() + handles.size() / 4, kNone);
-    for (uint32_t handle : handles)
-        if (handle != kNone) insert(face_of(handle), handle);
 }
 
 void FaceSlots::add(uint32_t surface, uint32_t face, const std::array<uint32_t, 3>& indices) {
-    if (is_full(face_count_ + 1, table_.size())) grow();
+    if (handles_.wants_resize(face_count_ + 1)) resize_table(face_count_ + 1);
     OneSurface& to = surfaces_[surface];
     uint32_t slot = to.count++;
     if (slot / kPageFaces == to.pages.size()) to.pages.push_back(std::make_unique<FacePage>());
@@ -65,42 +28,44 @@ void FaceSlots::add(uint32_t surface, uint32_t face, const std::array<uint32_t, 
     page.faces[slot % kPageFaces] = face;
     std::copy(indices.begin(), indices.end(), page.indices.begin() + ptrdiff_t(3 * (slot % kPageFaces)));
     page.touch(slot % kPageFaces);
-    insert(face, surface << slot_bits_ | slot);
+    handles_.insert(face, surface << slot_bits_ | slot);
     ++face_count_;
 }
 
+// The last of its surface takes its slot.
 void FaceSlots::remove(uint32_t face) {
     size_t place = find(face);
-    assert(place != kEmpty);
-    uint32_t handle = table_[place], surface = uint32_t(uint64_t(handle) >> slot_bits_);
+    assert(place != HandleTable::kNowhere);
+    uint32_t handle = handles_[place], surface = handle >> slot_bits_;
     OneSurface& from = surfaces_[surface];
     uint32_t last = surface << slot_bits_ | (from.count - 1);
-    erase(place);
+    handles_.erase(place, [&](uint32_t other) { return face_of(other); });
     if (last != handle) {
         FacePage &to = page_of(handle), &moved_from = page_of(last);
         uint32_t slot = handle % kPageFaces, last_slot = last % kPageFaces, moved = moved_from.faces[last_slot];
-        table_[find(moved)] = handle;
+        handles_[find(moved)] = handle;
         std::copy_n(moved_from.indices.begin() + ptrdiff_t(3 * last_slot), 3, to.indices.begin() + ptrdiff_t(3 * slot));
         to.faces[slot] = moved;
         to.touch(slot);
     }
     --from.count, --face_count_;
     if (from.count % kPageFaces == 0) from.pages.pop_back();
+    if (handles_.wants_resize(face_count_)) resize_table(face_count_);
 }
 
 void FaceSlots::set(uint32_t corner, uint32_t index) {
     size_t place = find(corner / 4);
-    assert(place != kEmpty);
-    uint32_t slot = table_[place] % kPageFaces;
-    FacePage& page = page_of(table_[place]);
+    assert(place != HandleTable::kNowhere);
+    uint32_t slot = handles_[place] % kPageFaces;
+    FacePage& page = page_of(handles_[place]);
     page.indices[3 * slot + corner % 4] = index;
     page.touch(slot);
 }
 
 uint32_t FaceSlots::index_at(uint32_t corner) const {
     size_t place = find(corner / 4);
-    assert(place != kEmpty);
-    return page_of(table_[place]).indices[3 * (table_[place] % kPageFaces) + corner % 4];
+    assert(place != HandleTable::kNowhere);
+    return page_of(handles_[place]).indices[3 * (handles_[place] % kPageFaces) + corner % 4];
 }
 
 void FaceSlots::clear_dirty() {
@@ -109,7 +74,7 @@ void FaceSlots::clear_dirty() {
 }
 
 uint64_t FaceSlots::bytes() const {
-    uint64_t bytes = table_.capacity() * sizeof(uint32_t) + surfaces_.capacity() * sizeof(OneSurface);
+    uint64_t bytes = handles_.bytes() + surfaces_.capacity() * sizeof(OneSurface);
     for (const OneSurface& surface : surfaces_)
         bytes += surface.pages.size() * sizeof(FacePage) + surface.pages.capacity() * sizeof(surface.pages[0]);
     return bytes;

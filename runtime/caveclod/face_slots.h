@@ -8,9 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "runtime/caveclod/handle_table.h"
+
 namespace overlook::caveclod {
 
-constexpr uint32_t kPageFaces = 256;
+// Few, since the last page of each surface is half empty in the mean.
+constexpr uint32_t kPageFaces = 64;
 
 // A piece of one index buffer. Its first `count` faces are drawn, three indices each.
 struct FacePage {
@@ -25,8 +28,7 @@ struct FacePage {
     }
 };
 
-// 16 bytes a face in pages and 4 in a table of handles that is at most 85 % full (linear probing, deletion by shifting back:
-// D. Knuth, The Art of Computer Programming 3, 6.4, 1998).
+// 16 bytes a face in pages, and what HandleTable takes for its handle.
 class FaceSlots {
   public:
     FaceSlots(uint32_t surface_count, uint32_t slot_bits);
@@ -36,7 +38,7 @@ class FaceSlots {
     // One corner (face * 4 + 0..2) of a face that is there.
     void set(uint32_t corner, uint32_t index);
     uint32_t index_at(uint32_t corner) const;
-    bool has(uint32_t face) const { return find(face) != kEmpty; }
+    bool has(uint32_t face) const { return find(face) != HandleTable::kNowhere; }
 
     uint64_t face_count() const { return face_count_; }
     uint32_t surface_count() const { return uint32_t(surfaces_.size()); }
@@ -51,26 +53,23 @@ class FaceSlots {
     uint64_t bytes() const;  // taken, used or not
 
   private:
-    static constexpr uint32_t kNone = ~0u;
-    static constexpr size_t kEmpty = ~size_t(0);
     struct OneSurface {
         std::vector<std::unique_ptr<FacePage>> pages;
         uint32_t count = 0;
     };
 
-    size_t home(uint32_t face) const { return size_t((uint64_t(face * 0x9e3779b1u) * table_.size()) >> 32); }
     FacePage& page_of(uint32_t handle) const {
         return *surfaces_[handle >> slot_bits_].pages[(handle & slot_mask_) / kPageFaces];
     }
     uint32_t face_of(uint32_t handle) const { return page_of(handle).faces[handle % kPageFaces]; }
-    size_t find(uint32_t face) const;
-    void insert(uint32_t face, uint32_t handle);
-    void erase(size_t place);
-    void grow();
+    size_t find(uint32_t face) const {
+        return handles_.find(face, [&](uint32_t handle) { return face_of(handle); });
+    }
+    void resize_table(uint64_t count);
 
     uint32_t slot_bits_, slot_mask_;
     std::vector<OneSurface> surfaces_;
-    std::vector<uint32_t> table_;
+    HandleTable handles_;
     uint64_t face_count_ = 0;
 };
 

@@ -1,23 +1,11 @@
 // Vertices on their way: Refinement's geomorphs.
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "runtime/caveclod/refine.h"
 #include "runtime/caveclod/refine_frame.h"
 
 namespace overlook::caveclod {
-
-uint32_t Refinement::take_glide_slot(const GlideVertex& vertex) {
-    if (free_glide_slots_.empty()) {
-        glide_vertices_.push_back(vertex);
-        return uint32_t(glide_vertices_.size() - 1);
-    }
-    uint32_t slot = free_glide_slots_.back();
-    free_glide_slots_.pop_back();
-    glide_vertices_[slot] = vertex;
-    return slot;
-}
 
 // Of the split in record_, which is applied: what each of its new vertices comes from.
 void Refinement::find_sources(bool glides) {
@@ -53,19 +41,17 @@ void Refinement::find_sources(bool glides) {
         source_of(record_.faces[k].vertices[record_.faces[k].new_corner], record_.faces[k].vertices[0]);
 }
 
-// `split` is applied: its corners at the new position are replaced by ones on their way.
+// The split in record_ is applied: its corners at the new position are replaced by ones on their way.
 void Refinement::start_glide(uint32_t split, bool is_collapsing, float share) {
-    mesh_.decode(split, record_);
     find_sources(mesh_.glides(split));
-    Glide glide{share, is_collapsing, mesh_.glides(split), {}};
-    for (GlideVertex& source : sources_) {
-        source.share = share;
-        glide.slots.push_back(take_glide_slot(source));
-    }
+    for (GlideVertex& source : sources_) source.share = share;
+    Glide glide;
+    glide.split = split, glide.share = share, glide.is_collapsing = is_collapsing, glide.moves = mesh_.glides(split);
+    glides_.add(glide, sources_, slots_);
     auto on_its_way = [&](uint32_t to) {
         size_t i = 0;
         while (sources_[i].to() != to) ++i;
-        return mesh_.glide_begin() + glide.slots[i];
+        return mesh_.glide_begin() + slots_[i];
     };
     for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, on_its_way(move.vertex));
     for (uint32_t k = 0; k < record_.face_count; ++k) {
@@ -73,7 +59,6 @@ void Refinement::start_glide(uint32_t split, bool is_collapsing, float share) {
         faces_.set(face.face * kCorners + face.new_corner, on_its_way(face.vertices[face.new_corner]));
     }
     put(gliding_, split, true);
-    glides_.emplace(split, std::move(glide));
 }
 
 // At its own place from now on.
@@ -84,24 +69,15 @@ void Refinement::finish_glide(uint32_t split) {
         const SplitRecord::Face& face = other_.faces[k];
         faces_.set(face.face * kCorners + face.new_corner, face.vertices[face.new_corner]);
     }
-    auto glide = glides_.find(split);
-    free_glide_slots_.insert(free_glide_slots_.end(), glide->second.slots.begin(), glide->second.slots.end());
-    glides_.erase(glide);
+    glides_.remove(split);
     put(gliding_, split, false);
 }
 
 void Refinement::advance_glides(Frame& frame, double dt_s) {
-    float step = frame.settings.glide_s > 0 ? float(dt_s / frame.settings.glide_s) : 1.0f;
-    std::vector<std::pair<uint32_t, bool>> arrived;
-    for (auto& [split, glide] : glides_) {
-        glide.share = std::clamp(glide.share + (glide.is_collapsing ? -step : step), 0.0f, 1.0f);
-        for (uint32_t slot : glide.slots) glide_vertices_[slot].share = glide.share;
-        if (glide.share == (glide.is_collapsing ? 0.0f : 1.0f)) arrived.emplace_back(split, glide.is_collapsing);
-    }
-    std::sort(arrived.begin(), arrived.end());
-    for (auto [split, is_collapsing] : arrived) {
-        finish_glide(split);
-        if (is_collapsing) undo(frame, split);
+    glides_.advance(frame.settings.glide_s > 0 ? float(dt_s / frame.settings.glide_s) : 1.0f, arrived_);
+    for (const Glide& glide : arrived_) {
+        finish_glide(glide.split);
+        if (glide.is_collapsing) undo(frame, glide.split);
     }
 }
 

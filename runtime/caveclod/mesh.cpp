@@ -22,6 +22,17 @@ void Mesh::decode_needs(uint32_t split, std::vector<uint32_t>& needs) const {
     for (uint32_t count = get(at); count > 0; --count) needs.push_back(last -= get(at));
 }
 
+void Mesh::decode_dependents(uint32_t split, std::vector<uint32_t>& dependents) const {
+    const uint8_t* at = records_.data() + record_begin_[split] + 1;
+    for (uint32_t count = get(at); count > 0; --count) get(at);
+    dependents.clear();
+    uint32_t last = split;
+    for (uint32_t count = get(at); count > 0; --count) {
+        last += get(at);
+        if (last < split_count()) dependents.push_back(last);
+    }
+}
+
 void Mesh::decode(uint32_t split, SplitRecord& record) const {
     const uint8_t* at = records_.data() + record_begin_[split];
     uint8_t head = *at++;

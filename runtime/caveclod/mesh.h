@@ -93,6 +93,7 @@ class Mesh {
         constexpr uint64_t kAxis = (1 << 21) - 1;
         return origin_m_ + glm::dvec3(double(at & kAxis), double(at >> 21 & kAxis), double(at >> 42 & kAxis)) * position_step_m_;
     }
+    void prefetch_bounds(uint32_t split) const { __builtin_prefetch(&bounds_[split]); }
     float finest_error_m() const { return finest_error_m_; }
     // Whether the star of a split can glide between its two forms and stay between them (see Refinement).
     bool glides(uint32_t split) const { return (glides_[split / 64] >> (split % 64) & 1) != 0; }
@@ -100,6 +101,7 @@ class Mesh {
     // `record`: scratch that keeps its memory.
     void decode(uint32_t split, SplitRecord& record) const;
     void decode_needs(uint32_t split, std::vector<uint32_t>& needs) const;
+    void decode_dependents(uint32_t split, std::vector<uint32_t>& dependents) const;
 
     std::span<const std::array<uint32_t, 3>> base_faces() const { return base_faces_; }
     uint32_t base_surface(uint32_t face) const { return base_surfaces_[face]; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "formats/numbers.h"
 
@@ -35,6 +36,16 @@ uint64_t planned_bytes(const BlockFile::Counts& of) {
            of.vertices * kDrawnBytesAVertex;
 }
 
+BlockFile::Counts counts_of(const BlockFile& file, uint32_t begin, uint32_t end) {
+    BlockFile::Counts sum;
+    for (uint32_t block = begin; block < end; ++block) {
+        BlockFile::Counts one = file.counts(block);
+        sum.splits += one.splits, sum.positions += one.positions, sum.faces_at_most += one.faces_at_most;
+        sum.vertices += one.vertices;
+    }
+    return sum;
+}
+
 }  // namespace
 
 struct MeshStream::Part {
@@ -48,30 +59,33 @@ struct MeshStream::Part {
 
     container::Reader reader;
     std::optional<BlockFile> file;
-    uint32_t first_block = 0, block_count = 0;  // in the stream; of those that may come
-    std::vector<uint64_t> planned_bytes;        // [block_count]
+    std::vector<uint32_t> run_end;          // of the file's blocks: what comes as one block of the stream
+    uint32_t first_run = 0, run_count = 0;  // in the stream; of those that may come
+    std::vector<uint64_t> planned_bytes;    // [run_count]
 
     // The frames'.
     std::optional<Mesh> mesh;
-    std::vector<Mesh::Extent> extents;  // [blocks that are there] up to each
+    std::vector<Mesh::Extent> extents;  // [runs that are there] up to each
     std::vector<uint64_t> held_bytes;   // the same
     std::vector<Seen> seen;             // in this frame
     double missing_px = 0;
     bool is_wanted = false;
-    uint32_t staying = 0;  // of the blocks that are there, those that do not give way to others
+    uint32_t staying = 0;  // of the runs that are there, those that do not give way to others
 
-    // The worker's while a block is on its way; there is one at most.
+    // The worker's while a run is on its way; there is one at most.
     std::unique_ptr<PrefixReader> prefix;
     std::optional<Mesh> arrived;
-    uint64_t arrived_bytes = 0;  // of all blocks up to the last
+    uint64_t arrived_bytes = 0;  // of all runs up to the last
 
     uint32_t there() const { return uint32_t(extents.size()); }
     bool is_yielding() const { return mesh->split_limit() < mesh->split_count(); }
-    // What would be missing with so many blocks, as it is seen.
-    double px_with(uint32_t blocks) const {
+    uint32_t run_begin(uint32_t run) const { return run > 0 ? run_end[run - 1] : 0; }
+    // What would be missing with so many runs, 1 at least, as it is seen.
+    double px_with(uint32_t runs) const {
         double px = 0;
         for (const Seen& one : seen)
-            px = std::max(px, one.refinement->displaced_px(*one.camera, *one.settings, file->missing_error_m(blocks), 0));
+            px = std::max(px,
+                          one.refinement->displaced_px(*one.camera, *one.settings, file->missing_error_m(run_end[runs - 1]), 0));
         return px;
     }
     uint64_t held() const {
@@ -90,14 +104,29 @@ uint32_t MeshStream::block_count(size_t i) const {
     return parts_[i]->file->block_count();
 }
 uint32_t MeshStream::resident_block_count(size_t i) const {
-    return parts_[i]->there();
+    return parts_[i]->run_end[parts_[i]->there() - 1];
 }
 
-// The next block of a part, on top of those that are there; from the front where the reader has been given up.
-Result<stream::Bytes> MeshStream::decode(Part& part, uint32_t block) {
-    if (!part.prefix || part.prefix->block_count() > block) part.prefix = std::make_unique<PrefixReader>(*part.file);
+std::vector<uint32_t> runs_of_blocks(std::span<const uint32_t> split_counts) {
+    constexpr uint64_t kShare = 8;
+    std::vector<uint32_t> ends;
+    uint64_t before = 0, run = 0;
+    for (uint32_t block = 0; block < split_counts.size(); ++block) {
+        run += split_counts[block];
+        if (block > 0 && kShare * run < before && block + 1 < split_counts.size()) continue;
+        ends.push_back(block + 1);
+        before += std::exchange(run, 0);
+    }
+    return ends;
+}
+
+// The next run of a part, on top of those that are there; from the front where the reader has been given up.
+Result<stream::Bytes> MeshStream::decode(Part& part, uint32_t run) {
+    uint32_t end = part.run_end[run];
+    if (!part.prefix || part.prefix->block_count() > part.run_begin(run))
+        part.prefix = std::make_unique<PrefixReader>(*part.file);
     Result<void> read;
-    while (read && part.prefix->block_count() <= block) read = part.prefix->read_next();
+    while (read && part.prefix->block_count() < end) read = part.prefix->read_next();
     if (read) read = part.prefix->complete();
     if (!read) {
         part.prefix.reset();
@@ -105,17 +134,17 @@ Result<stream::Bytes> MeshStream::decode(Part& part, uint32_t block) {
     }
     const Hierarchy& h = part.prefix->hierarchy();
     const BlockFile& file = *part.file;
-    Result<Mesh> mesh = Mesh::make(h, {file.face_count(), file.vertex_count(), file.missing_error_m(block + 1)});
+    Result<Mesh> mesh = Mesh::make(h, {file.face_count(), file.vertex_count(), file.missing_error_m(end)});
     if (!mesh) return tl::unexpected(mesh.error());
     part.arrived_bytes = part.prefix->bytes() + 2 * mesh->bytes().all() + mesh->vertex_count() * kDrawnBytesAVertex +
                          working_bytes(h.split_count(), h.positions_m.size(), h.face_positions.size(), h.needs.size());
-    if (part.arrived_bytes > part.held() + part.planned_bytes[block]) {
+    if (part.arrived_bytes > part.held() + part.planned_bytes[run]) {
         part.prefix.reset();
-        return impossible("{}: block {} takes {} bytes in memory, {} were planned for", part.reader.name(), block,
-                          with_commas(part.arrived_bytes - part.held()), with_commas(part.planned_bytes[block]));
+        return impossible("{}: block {} takes {} bytes in memory, {} were planned for", part.reader.name(), end - 1,
+                          with_commas(part.arrived_bytes - part.held()), with_commas(part.planned_bytes[run]));
     }
     part.arrived.emplace(std::move(*mesh));
-    if (block + 1 == file.block_count()) part.prefix.reset();
+    if (end == file.block_count()) part.prefix.reset();
     return stream::Bytes();
 }
 
@@ -123,29 +152,29 @@ stream::Source MeshStream::source_of(const stream::Settings& settings) {
     stream::Source source;
     source.keeps_blocks = true;
     for (const std::unique_ptr<Part>& part : parts_) {
-        part->first_block = source.block_count();
-        for (uint32_t block = 0; block < part->file->block_count(); ++block) {
-            BlockFile::Counts counts = part->file->counts(block);
+        part->first_run = source.block_count();
+        for (uint32_t run = 0; run < part->run_end.size(); ++run) {
+            BlockFile::Counts counts = counts_of(*part->file, part->run_begin(run), part->run_end[run]);
             uint64_t bytes = planned_bytes(counts);
-            if (block > 0 && bytes > settings.residency_budget_bytes) break;
-            if (block > 0) source.needs.push_back(source.block_count() - 1);
+            if (run > 0 && bytes > settings.residency_budget_bytes) break;
+            if (run > 0) source.needs.push_back(source.block_count() - 1);
             source.need_begin.push_back(uint32_t(source.needs.size()));
             source.decoded_bytes.push_back(bytes);
             source.upload_bytes.push_back(counts.vertices * (sizeof(PackedVertex) + sizeof(uint32_t)));
             part->planned_bytes.push_back(bytes);
         }
-        part->block_count = uint32_t(part->planned_bytes.size());
+        part->run_count = uint32_t(part->planned_bytes.size());
     }
     source.decode = [this](uint32_t block, std::span<const std::span<const std::byte>>) {
         Part& part = part_of(block);
-        return decode(part, block - part.first_block);
+        return decode(part, block - part.first_run);
     };
     return source;
 }
 
 MeshStream::Part& MeshStream::part_of(uint32_t stream_block) {
     auto after = std::upper_bound(parts_.begin(), parts_.end(), stream_block,
-                                  [](uint32_t block, const std::unique_ptr<Part>& part) { return block < part->first_block; });
+                                  [](uint32_t block, const std::unique_ptr<Part>& part) { return block < part->first_run; });
     return **(after - 1);
 }
 
@@ -159,6 +188,10 @@ Result<std::unique_ptr<MeshStream>> MeshStream::open(std::vector<container::Read
         Result<BlockFile> opened = BlockFile::open(part.reader);
         if (!opened) return tl::unexpected(opened.error());
         part.file.emplace(std::move(*opened));
+        std::vector<uint32_t> split_counts;
+        for (uint32_t block = 0; block < part.file->block_count(); ++block)
+            split_counts.push_back(part.file->counts(block).splits);
+        part.run_end = runs_of_blocks(split_counts);
     }
     std::string name = made->parts_.front()->reader.name();
     if (files.size() > 1) name += fmt::format(" and {} more", files.size() - 1);
@@ -168,7 +201,7 @@ Result<std::unique_ptr<MeshStream>> MeshStream::open(std::vector<container::Read
     std::vector<uint32_t> coarsest;
     std::vector<std::vector<Surface>> surfaces;
     for (const std::unique_ptr<Part>& part : made->parts_) {
-        coarsest.push_back(part->first_block);
+        coarsest.push_back(part->first_run);
         surfaces.push_back(part->file->take_surfaces());
     }
     if (Result<void> kept = made->stream_->keep(coarsest); !kept) return tl::unexpected(kept.error());
@@ -186,7 +219,7 @@ void MeshStream::take_arrived(Part& part) {
         part.mesh.emplace(std::move(*part.arrived));
     part.arrived.reset();
     uint64_t before = part.held(), bytes = part.arrived_bytes > before ? part.arrived_bytes - before : 1;
-    stream_->set_held_bytes(part.first_block + part.there(), bytes);
+    stream_->set_held_bytes(part.first_run + part.there(), bytes);
     part.extents.push_back(part.mesh->extent());
     part.held_bytes.push_back(bytes);
 }
@@ -205,33 +238,33 @@ void MeshStream::take_note(size_t i, const Refinement& refinement, const view::C
     part.seen.push_back({&refinement, &camera, &settings});
     part.missing_px = std::max(part.missing_px, missing_px);
     part.is_wanted = part.is_wanted || missing_px > settings.error_px;
-    // The block of the last split that is applied, and with it all before.
-    uint32_t end = refinement.split_end(), block = 0;
-    while (end > part.extents[block].split_count) ++block;
-    stream_->use(part.first_block + block);
+    // The run of the last split that is applied, and with it all before.
+    uint32_t end = refinement.split_end(), run = 0;
+    while (end > part.extents[run].split_count) ++run;
+    stream_->use(part.first_run + run);
 }
 
-// Each part's next block: what is wanted by how much it lacks, and others as far as there is room without dropping any.
+// Each part's next run: what is wanted by how much it lacks, and others as far as there is room without dropping any.
 void MeshStream::ask() {
     uint64_t asked_bytes = stream_->counts().resident_bytes + stream_->counts().on_the_way_bytes;
     for (bool is_wanted : {true, false}) {
         for (const std::unique_ptr<Part>& part : parts_) {
-            if (part->is_wanted != is_wanted || part->there() == part->block_count || part->is_yielding()) continue;
+            if (part->is_wanted != is_wanted || part->there() == part->run_count || part->is_yielding()) continue;
             asked_bytes += part->planned_bytes[part->there()];
             if (is_wanted || asked_bytes <= budget_bytes_)
-                stream_->ask(part->first_block + part->there(), is_wanted ? float(part->missing_px) : 0);
+                stream_->ask(part->first_run + part->there(), is_wanted ? float(part->missing_px) : 0);
         }
     }
 }
 
-// Of what has found no room, who lacks most may have that of the last blocks of others, those first that show it least. Nobody
+// Of what has found no room, who lacks most may have that of the last runs of others, those first that show it least. Nobody
 // yields anything unless all together is enough.
 void MeshStream::give_way() {
     Part* lacking = nullptr;
     for (const std::unique_ptr<Part>& part : parts_) {
         part->mesh->set_split_limit(part->mesh->split_count());
         part->staying = part->there();
-        if (part->is_wanted && part->there() < part->block_count && (!lacking || part->missing_px > lacking->missing_px))
+        if (part->is_wanted && part->there() < part->run_count && (!lacking || part->missing_px > lacking->missing_px))
             lacking = part.get();
     }
     if (lacking == nullptr || stream_->counts().refused_count == 0) return;
@@ -259,9 +292,9 @@ void MeshStream::end_frame() {
 }
 
 void MeshStream::drop(Part& part) {
-    while (!stream_->is_resident(part.first_block + part.there() - 1)) part.extents.pop_back(), part.held_bytes.pop_back();
+    while (!stream_->is_resident(part.first_run + part.there() - 1)) part.extents.pop_back(), part.held_bytes.pop_back();
     if (part.extents.back().split_count == part.mesh->split_count()) return;
-    part.mesh->shrink(part.extents.back(), part.file->missing_error_m(part.there()));
+    part.mesh->shrink(part.extents.back(), part.file->missing_error_m(part.run_end[part.there() - 1]));
     part.prefix.reset();
 }
 

@@ -15,12 +15,17 @@
 
 namespace overlook::caveclod {
 
+// Taking in blocks costs O(all that is there then), so what is large comes by more than one: ends of the runs that come at once,
+// the coarsest cut alone and then each at least an eighth of the splits before it, but for the last. So loading all of a mesh
+// costs O(its splits), nine times what reading it whole does, and no more than an eighth of it waits for others.
+std::vector<uint32_t> runs_of_blocks(std::span<const uint32_t> split_counts);
+
 // A mesh's blocks each need the one before, so what is there of a mesh is always its first blocks: a mesh of its own, the one
-// that read(file, blocks) gives. It grows by a whole block between two frames, under the refinements of all cameras that share
-// it, and loses its last block when no refinement stands on that any more.
+// that read(file, blocks) gives. It grows by a run of blocks between two frames, under the refinements of all cameras that share
+// it, and loses its last run when no refinement stands on that any more.
 //
 // Several meshes share one budget: an error in pixels means the same in each, so that room goes where the picture lacks most. Of
-// its own budget each would keep room that another needs. Where all room is in use, the mesh that lacks most takes the last block
+// its own budget each would keep room that another needs. Where all room is in use, the mesh that lacks most takes the last run
 // of the one that would show it least: refinements collapse what stands on it in their own time, then it goes.
 //
 // The budget counts all that grows with a mesh: what refinements read, its vertices on the graphics card, and what a worker keeps
@@ -56,7 +61,7 @@ class MeshStream {
     struct Part;
     MeshStream() = default;
     stream::Source source_of(const stream::Settings& settings);
-    static Result<stream::Bytes> decode(Part& part, uint32_t block);
+    static Result<stream::Bytes> decode(Part& part, uint32_t run);
     Part& part_of(uint32_t stream_block);
     void take_arrived(Part& part);
     void ask();

@@ -6,9 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "formats/parallel.h"
 #include "runtime/caveclod/refine_frame.h"
-#include "runtime/caveclod/screen_test.h"
 
 namespace overlook::caveclod {
 
@@ -18,59 +16,6 @@ Refinement::Refinement(const Mesh& mesh) : mesh_(mesh), faces_(mesh.surface_coun
     for (uint32_t face = 0; face < mesh.base_face_count(); ++face)
         faces_.add(mesh.base_surface(face), face, mesh.base_faces()[face]);
     for (uint32_t root : mesh.roots()) open(root);
-}
-
-void Refinement::evaluate(Frame& frame, uint32_t split) {
-    ++frame.report.evaluated_count;
-    auto answer = frame.test(split);
-    if (split >= mesh_.split_limit()) answer.must_split = answer.wants_split = false, answer.wants_collapse = true;
-    if (has(applied_, split)) {
-        if (has(gliding_, split)) {
-            Glide& glide = glides_.at(split);
-            if (answer.wants_split) glide.is_collapsing = false;
-            if (!glide.moves) return;  // it is drawn as split
-            if (answer.must_split)
-                finish_glide(split);
-            else
-                frame.report.error_px = std::max(frame.report.error_px, answer.seen_error_px);
-            return;
-        }
-        if (answer.wants_collapse) {
-            collapses_.push_back({answer.error_px, split});
-            std::push_heap(collapses_.begin(), collapses_.end(), std::greater<>());
-        } else if (frame.keeps_reserve) {
-            reserve_.push_back({answer.error_px, split});
-            std::push_heap(reserve_.begin(), reserve_.end(), std::greater<>());
-        }
-    } else if (answer.must_split || (answer.wants_split && mesh_.glides(split))) {
-        splits_.push_back({answer.error_px, split});
-        std::push_heap(splits_.begin(), splits_.end());
-    } else {
-        frame.report.error_px = std::max(frame.report.error_px, answer.seen_error_px);
-    }
-}
-
-// All that could change, in order: their bounds are read from front to back. Most of them show at once that they stay as they
-// are, and that none of them is the greatest error.
-void Refinement::evaluate_all(Frame& frame) {
-    const ScreenTest& test = frame.test;
-    double known_px = -1, reach = 0;
-    for (size_t word = 0; word < open_.size(); ++word) {
-        for (uint64_t left = open_[word]; left != 0; left &= left - 1) {
-            uint32_t split = uint32_t(64 * word) + uint32_t(std::countr_zero(left));
-            if (frame.report.error_px != known_px) {
-                known_px = frame.report.error_px;
-                reach = test.reach_of(std::min(known_px, test.least_split_px()));
-            }
-            bool stays = has(applied_, split)
-                             ? !frame.keeps_reserve && !has(gliding_, split) && split < mesh_.split_limit() && test.is_kept(split)
-                             : test.is_within(split, reach);
-            if (stays)
-                ++frame.report.evaluated_count;
-            else
-                evaluate(frame, split);
-        }
-    }
 }
 
 void Refinement::apply(Frame& frame, const Wish& wish) {
@@ -86,31 +31,33 @@ void Refinement::apply(Frame& frame, const Wish& wish) {
         faces_.add(record_.faces[k].surface, record_.faces[k].face, record_.faces[k].vertices);
     ++frame.report.split_count;
     if (may_glide(frame, wish)) start_glide(split, false, 0);
-    std::vector<uint32_t> dependents;
-    dependents.swap(record_.dependents);
-    for (uint32_t dependent : dependents) {
+    for (uint32_t dependent : record_.dependents) {
         mesh_.decode_needs(dependent, needs_);
         if (!std::all_of(needs_.begin(), needs_.end(), [&](uint32_t need) { return has(applied_, need); })) continue;
         open(dependent);
         evaluate(frame, dependent);
     }
-    record_.dependents.swap(dependents);
 }
 
-// The split leaves the faces as they were before it.
-void Refinement::undo(Frame& frame, uint32_t split) {
+// The split leaves the faces as they were before it. opened_: what could be undone now.
+void Refinement::take_back(uint32_t split) {
     mesh_.decode(split, record_);
     for (const SplitRecord::Move& move : record_.moves) faces_.set(move.corner, move.vertex_before);
     for (uint32_t k = 0; k < record_.face_count; ++k) faces_.remove(record_.faces[k].face);
     put(applied_, split, false);
     for (uint32_t dependent : record_.dependents) close(dependent);
+    opened_.clear();
     for (uint32_t need : record_.needs) {
-        mesh_.decode(need, other_);
-        const std::vector<uint32_t>& others = other_.dependents;
-        if (std::any_of(others.begin(), others.end(), [&](uint32_t other) { return has(applied_, other); })) continue;
+        mesh_.decode_dependents(need, needs_);
+        if (std::any_of(needs_.begin(), needs_.end(), [&](uint32_t other) { return has(applied_, other); })) continue;
         open(need);
-        evaluate(frame, need);
+        opened_.push_back(need);
     }
+}
+
+void Refinement::undo(Frame& frame, uint32_t split) {
+    take_back(split);
+    for (uint32_t need : opened_) evaluate(frame, need);
 }
 
 // Only what keeps the promise unsplit as well may be seen gliding on its way; what fades is drawn as split.
@@ -122,7 +69,7 @@ bool Refinement::may_glide(const Frame& frame, const Wish& wish) const {
 
 // What keeps the promise unsplit lets those that it needs arrive.
 bool Refinement::must_wait(const Frame& frame, const Wish& wish) {
-    if (glides_.empty() || wish.error_px > frame.test.least_limit_px()) return false;
+    if (glides_.is_empty() || wish.error_px > frame.test.least_limit_px()) return false;
     mesh_.decode_needs(wish.split, needs_);
     return std::any_of(needs_.begin(), needs_.end(), [&](uint32_t need) { return has(gliding_, need); });
 }
@@ -136,10 +83,12 @@ bool Refinement::collapse_next(Frame& frame) {
         frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
         ++frame.report.collapse_count;
         bool is_over_budget = frame.settings.most_triangles > 0 && faces_.face_count() + 2 > frame.settings.most_triangles;
-        if (!is_over_budget && may_glide(frame, wish))
+        if (!is_over_budget && may_glide(frame, wish)) {
+            mesh_.decode(wish.split, record_);
             start_glide(wish.split, true, 1);
-        else
+        } else {
             undo(frame, wish.split);
+        }
         return true;
     }
     return false;
@@ -201,23 +150,35 @@ void Refinement::operate(Frame& frame) {
             frame.report.error_px = std::max(frame.report.error_px, wish.error_px);
 }
 
-FrameReport Refinement::refine(const view::Camera& camera, const Settings& settings, double dt_s,
-                               const view::FinerParts* finer) {
+void Refinement::begin(Frame& frame, double dt_s) {
     if (split_count_ != mesh_.split_count()) follow_mesh();
-    ScreenTest test(mesh_, camera, settings, finer);
-    Frame frame{test, settings, {}, false, settings.most_operations > 0 ? settings.most_operations : ~uint64_t(0)};
+    const Settings& settings = frame.settings;
     frame.keeps_reserve = settings.most_triangles > 0 && faces_.face_count() * 8 > settings.most_triangles * 7;
     splits_.clear(), collapses_.clear(), reserve_.clear();
     advance_glides(frame, dt_s);
     if (settings.collapse_share == 1) undo_unwanted(frame);
-    evaluate_all(frame);
+    guess_greatest(frame);
+    parts_.resize(part_count());
+}
+
+void Refinement::finish(Frame& frame) {
+    const Settings& settings = frame.settings;
+    for (const Found& found : parts_) take(frame, found);
     operate(frame);
+    greatest_left_ = frame.greatest_left;
     frame.report.triangle_count = faces_.face_count();
-    frame.report.gliding_count = uint32_t(glides_.size());
+    frame.report.gliding_count = uint32_t(glides_.all().size());
     if (mesh_.missing_error_m() > 0) {
-        frame.report.missing_px = displaced_px(camera, settings, mesh_.missing_error_m(), settings.error_px);
+        frame.report.missing_px = displaced_px(frame.camera, settings, mesh_.missing_error_m(), settings.error_px);
         frame.report.error_px = std::max(frame.report.error_px, frame.report.missing_px);
     }
+}
+
+FrameReport Refinement::refine(const view::Camera& camera, const Settings& settings, double dt_s, const view::FinerParts* finer) {
+    Frame frame(mesh_, camera, settings, finer);
+    begin(frame, dt_s);
+    for (size_t part = 0; part < parts_.size(); ++part) look(frame, part);
+    finish(frame);
     return frame.report;
 }
 
@@ -232,8 +193,8 @@ void Refinement::follow_mesh() {
         if (std::all_of(needs_.begin(), needs_.end(), [&](uint32_t need) { return has(applied_, need); })) open(split);
     }
     std::vector<uint32_t> ended;
-    for (const auto& [split, glide] : glides_)
-        if (glide.moves && !mesh_.glides(split)) ended.push_back(split);
+    for (const Glide& glide : glides_.all())
+        if (glide.moves && !mesh_.glides(glide.split)) ended.push_back(glide.split);
     std::sort(ended.begin(), ended.end());
     for (uint32_t split : ended) finish_glide(split);
 }
@@ -246,7 +207,7 @@ uint32_t Refinement::split_end() const {
 
 glm::dvec3 Refinement::place_m(uint32_t index) const {
     if (index < mesh_.glide_begin()) return mesh_.origin_m() + mesh_.vertex_m(index);
-    const GlideVertex& glide = glide_vertices_[index - mesh_.glide_begin()];
+    const GlideVertex& glide = glides_.vertices()[index - mesh_.glide_begin()];
     glm::dvec3 to_m = mesh_.vertex_m(glide.to());
     return mesh_.origin_m() + (glide.glides() ? glm::mix(mesh_.vertex_m(glide.from[0]), to_m, double(glide.share)) : to_m);
 }
@@ -274,26 +235,8 @@ Refinement::Bytes Refinement::bytes() const {
     Bytes bytes;
     for (const Bits* bits : {&applied_, &open_, &gliding_}) bytes.fixed += bits->capacity() * sizeof(uint64_t);
     bytes.active = faces_.bytes();
-    bytes.glides = glide_vertices_.capacity() * sizeof(GlideVertex) + free_glide_slots_.capacity() * sizeof(uint32_t);
-    for (const auto& [split, glide] : glides_)
-        bytes.glides += sizeof(split) + sizeof(glide) + 2 * sizeof(void*) + glide.slots.capacity() * sizeof(uint32_t);
+    bytes.glides = glides_.bytes();
     return bytes;
-}
-
-void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings,
-                double dt_s, std::span<FrameReport> reports) {
-    parallel_ranges(refinements.size(), 1,
-                    [&](size_t i, size_t) { reports[i] = refinements[i]->refine(cameras[i], settings, dt_s); });
-}
-
-void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,
-                    const std::function<void(size_t camera)>& draw, std::span<FrameReport> reports) {
-    Settings at_once = settings;
-    at_once.most_operations = 0, at_once.glide_s = 0;
-    for (size_t i = 0; i < cameras.size(); ++i) {
-        reports[i] = shared.refine(cameras[i], at_once, 0);
-        draw(i);
-    }
 }
 
 }  // namespace overlook::caveclod

@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "runtime/caveclod/face_slots.h"
+#include "runtime/caveclod/glide_list.h"
 #include "runtime/caveclod/mesh.h"
 #include "runtime/caveclod/settings.h"
 #include "runtime/view/camera.h"
@@ -22,21 +22,6 @@
 namespace overlook::caveclod {
 
 class ScreenTest;
-
-// A vertex on its way to vertex `to`, as drawing reads it: at the share `share` (0..1) from a mixture of three vertices, in
-// normal, texture coordinates and colour; and in its place too where it glides (then the three are one). One that fades stands
-// at its place from the beginning.
-struct GlideVertex {
-    static constexpr uint32_t kGlides = uint32_t(1) << 31;
-    uint32_t to_bits = 0;  // `to`, and kGlides
-    float share = 0;
-    std::array<uint16_t, 2> weights{};  // of from[0] and from[1], 65535ths; the rest is from[2]'s
-    std::array<uint32_t, 3> from{};
-
-    uint32_t to() const { return to_bits & ~kGlides; }
-    bool glides() const { return (to_bits & kGlides) != 0; }
-};
-static_assert(sizeof(GlideVertex) == 24);
 
 // One camera's refinement of one mesh, which must outlive it. Any number of them may refine one mesh at once, each in one thread.
 // Between two frames the mesh may grow, and shrink to no less than split_end().
@@ -67,7 +52,7 @@ class Refinement {
                        const view::FinerParts* finer = nullptr);
 
     const FaceSlots& faces() const { return faces_; }
-    std::span<const GlideVertex> glide_vertices() const { return glide_vertices_; }
+    std::span<const GlideVertex> glide_vertices() const { return glides_.vertices(); }
     // What draws has taken all that has changed.
     void clear_dirty() { faces_.clear_dirty(); }
 
@@ -89,6 +74,7 @@ class Refinement {
     Bytes bytes() const;
 
   private:
+    friend class TeamFrame;
     using Bits = std::vector<uint64_t>;
     static bool has(const Bits& bits, uint32_t i) { return (bits[i / 64] >> (i % 64) & 1) != 0; }
     static void put(Bits& bits, uint32_t i, bool value) {
@@ -105,19 +91,36 @@ class Refinement {
         }
         bool operator>(const Wish& other) const { return other < *this; }
     };
-    struct Glide {
-        float share = 0;
-        bool is_collapsing = false, moves = false;
-        std::vector<uint32_t> slots;  // in glide_vertices_
-    };
+    // What looking at some splits has found. Nothing is changed meanwhile, so that threads may share them out.
+    struct Found {
+        std::vector<uint32_t> waiting, standing, moving;  // that were looked at: not applied; applied; on their way
+        std::vector<Wish> splits, collapses, reserve;
+        std::vector<uint32_t> turned, arrived;  // on their way: those that shall not collapse, those that must be at their place
+        double error_px = 0;                    // the greatest of them that is left unsplit in view, and whose it is
+        uint32_t greatest = 0, evaluated_count = 0;
 
+        void leave(uint32_t split, double px) {
+            if (px > error_px) error_px = px, greatest = split;
+        }
+        void clear();
+    };
     struct Frame;  // what one call of refine() works with
+
+    // refine() in three steps: between the first and the last any threads may look at parts, each once.
+    void begin(Frame& frame, double dt_s);
+    size_t part_count() const;
+    void look(const Frame& frame, size_t part);
+    void finish(Frame& frame);
 
     void follow_mesh();
     void open(uint32_t split) { put(open_, split, true); }
     void close(uint32_t split) { put(open_, split, false); }
+    void look_at(const Frame& frame, uint32_t split, Found& found) const;
+    void look_at_waiting(const Frame& frame, Found& found) const;
+    void look_at_standing(const Frame& frame, Found& found) const;
+    void guess_greatest(Frame& frame);
+    void take(Frame& frame, const Found& found);
     void evaluate(Frame& frame, uint32_t split);
-    void evaluate_all(Frame& frame);
     void operate(Frame& frame);
     void undo_unwanted(Frame& frame);
     bool split_next(Frame& frame);
@@ -126,26 +129,28 @@ class Refinement {
     void apply(Frame& frame, const Wish& wish);
     bool may_glide(const Frame& frame, const Wish& wish) const;
     void undo(Frame& frame, uint32_t split);
+    void take_back(uint32_t split);
 
     void start_glide(uint32_t split, bool is_collapsing, float share);
     void find_sources(bool glides);
     bool must_wait(const Frame& frame, const Wish& wish);
     void finish_glide(uint32_t split);
     void advance_glides(Frame& frame, double dt_s);
-    uint32_t take_glide_slot(const GlideVertex& vertex);
 
     const Mesh& mesh_;
     uint32_t split_count_ = 0;  // the mesh's when it was looked at last
     // Of splits: applied; could be applied or undone now; on its way.
     Bits applied_, open_, gliding_;
     FaceSlots faces_;
-    std::unordered_map<uint32_t, Glide> glides_;
-    std::vector<GlideVertex> glide_vertices_;
-    std::vector<uint32_t> free_glide_slots_;
+    GlideList glides_;
+    uint32_t greatest_left_ = 0;  // of the splits that the last frame left unsplit: that of the greatest error
     // Scratch.
     SplitRecord record_, other_;
-    std::vector<uint32_t> needs_;
+    std::vector<uint32_t> needs_, opened_, slots_;
     std::vector<Wish> splits_, collapses_, reserve_;
+    Found one_;                 // of a single split
+    std::vector<Found> parts_;  // [part_count()]
+    std::vector<Glide> arrived_;
     std::vector<GlideVertex> sources_;  // of the split that begins: one for each new vertex
     std::vector<double> inside_;        // [as sources_] how far inside its face a vertex lies, least barycentric coordinate
 };

@@ -34,7 +34,7 @@ class ScreenTest {
           culls_back_faces_(settings.culls_back_faces),
           finer_(finer != nullptr && !finer->is_empty() ? finer : nullptr) {
         focal_px_ = view::focal_px(camera), corner_secant_ = view::corner_secant(camera), near_m_ = camera.near_m;
-        keep_reach_ = focal_px_ / (settings.error_px * settings.collapse_share) * (1 - kRounding);
+        keep_reach_ = (focal_px_ / (settings.error_px * settings.collapse_share) + 1) * (1 - kRounding);
         double half_y = camera.fov_y_deg * std::numbers::pi / 360;
         double half_x = std::atan(std::tan(half_y) * camera.width_px / camera.height_px);
         double guard = settings.guard_deg * std::numbers::pi / 180;
@@ -101,21 +101,36 @@ class ScreenTest {
         return corner_secant_ * (1 + focal_px_ * corner_secant_ / limit_px) * (1 + kRounding);
     }
     double least_split_px() const { return std::min(split_px_, least_limit_px()) * enter_share_; }
-    bool is_within(uint32_t split, double reach) const {
-        double error_m = mesh_.error_m(split), far_m = mesh_.radius_m(split) + (error_m > 0 ? error_m * reach : 0);
-        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
-        return glm::dot(from_eye, from_eye) >= far_m * far_m;
+    // What the shorter ways read of a split, once for all of them.
+    struct Sphere {
+        glm::dvec3 from_eye_m;
+        double radius_m, error_m;
+    };
+    Sphere sphere(uint32_t split) const { return {mesh_.middle_m(split) - eye_m_, mesh_.radius_m(split), mesh_.error_m(split)}; }
+    bool is_within(const Sphere& of, double reach) const {
+        double far_m = of.radius_m + (of.error_m > 0 ? of.error_m * reach : 0);
+        return glm::dot(of.from_eye_m, of.from_eye_m) >= far_m * far_m;
     }
-    // The least depth is at most d - r, or the nearest that is drawn, and a secant at least 1: what is applied in the wide sector
-    // stays if d - r is at most f * e / (collapse_share * error_px). Answers false as well where it cannot tell.
-    bool is_kept(uint32_t split) const {
-        if (tests_cones_) return false;
-        glm::dvec3 from_eye = mesh_.middle_m(split) - eye_m_;
-        double radius_m = mesh_.radius_m(split), reach_m = mesh_.error_m(split) * keep_reach_;
-        double near_enough_m = radius_m + reach_m;
-        return reach_m > near_m_ && glm::dot(from_eye, from_eye) <= near_enough_m * near_enough_m &&
-               wide_.holds(bound_.place_of(from_eye), radius_m);
+    // Whether what is seen of it is within limit_px: nothing is out of the narrow sector, and with z the depth of a sphere's
+    // nearest point and s how far its middle is from the axis, the least depth is at least z and the widest tangent at most (s +
+    // r) / z.
+    bool is_seen_within(const Sphere& of, double limit_px) const {
+        view::SphereErrorBound::Place place = bound_.place_of(of.from_eye_m);
+        if (of.error_m <= 0 || !narrow_.holds(place, of.radius_m)) return true;
+        double depth_m = place.forward - of.radius_m, rest_m = depth_m - of.error_m;
+        if (rest_m <= 0) return false;
+        // At least (s + r)^2, without the root.
+        double across = place.right * place.right + place.up * place.up +
+                        (2 * (std::abs(place.right) + std::abs(place.up)) + of.radius_m) * of.radius_m;
+        double square = depth_m * depth_m, error_f = focal_px_ * of.error_m, limit = limit_px * rest_m;
+        double secant = std::min(corner_secant_ * corner_secant_ * square, square + across);  // squared, times z^2
+        return error_f * error_f * secant * (1 + kRounding) <= limit * limit * square;
     }
+    // With P what is kept, collapse_share * error_px: a secant is at least 1, so that what is applied in the wide sector stays if
+    // its least depth is at most f * e / P + e. Answers false as well where it cannot tell.
+    bool is_kept(const Sphere& of) const { return !tests_cones_ && is_larger(of, wide_); }
+    // The same of what must be split, where no band lies between.
+    bool is_surely_split(const Sphere& of) const { return collapse_share_ == 1 && !culls_back_faces_ && is_larger(of, narrow_); }
 
   private:
     static constexpr double kRounding = 1e-9;  // what the shorter way may round otherwise
@@ -137,6 +152,14 @@ class ScreenTest {
             return x.holds(place.right, place.forward, radius_m) && y.holds(place.up, place.forward, radius_m);
         }
     };
+
+    // Whether it surely has more than collapse_share * error_px in a sector.
+    bool is_larger(const Sphere& of, const Sector& sector) const {
+        double reach_m = of.error_m * keep_reach_, near_enough_m = of.radius_m + reach_m * corner_secant_ * (1 - kRounding);
+        if (reach_m <= near_m_ || glm::dot(of.from_eye_m, of.from_eye_m) > near_enough_m * near_enough_m) return false;
+        view::SphereErrorBound::Place place = bound_.place_of(of.from_eye_m);
+        return place.forward - of.radius_m <= reach_m && sector.holds(place, of.radius_m);
+    }
 
     enum class Facing { towards, both, away };
     // Of all normals in a cone, widened by `more` of its 255 steps, at all places of a sphere.

@@ -48,6 +48,28 @@ void expect_same(const Mesh& a, const Mesh& b) {
     }
 }
 
+// Loading costs the sum of all that is there after each run.
+TEST(MeshStream, LoadsWhatIsLargeInTimeOfItsSize) {
+    EXPECT_EQ(runs_of_blocks(std::vector<uint32_t>{0}), (std::vector<uint32_t>{1}));
+    EXPECT_EQ(runs_of_blocks(std::vector<uint32_t>{0, 1024, 2048}), (std::vector<uint32_t>{1, 2, 3}));
+    std::vector<uint32_t> splits(2000, 1 << 14);
+    splits[0] = 0;
+    uint64_t all = 0, before = 0, work = 0;
+    std::vector<uint32_t> ends = runs_of_blocks(splits);
+    for (size_t run = 0; run < ends.size(); ++run) {
+        uint64_t own = 0;
+        for (uint32_t block = run > 0 ? ends[run - 1] : 0; block < ends[run]; ++block) own += splits[block];
+        if (run > 1 && run + 1 < ends.size()) {
+            EXPECT_TRUE(8 * own >= before && 8 * (own - splits[1]) <= before) << run;
+        }
+        all += own, before += own, work += before;
+    }
+    EXPECT_EQ(ends[0], 1u);
+    EXPECT_EQ(ends.back(), 2000u);
+    EXPECT_EQ(all, 1999u << 14);
+    EXPECT_LT(work, 10 * all);
+}
+
 TEST(MeshStream, IsTheMeshOfTheBlocksThatAreThere) {
     auto stream = opened(hills(), kMuch);
     Cameras cameras(*stream, 0, 1);

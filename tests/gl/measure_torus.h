@@ -14,9 +14,9 @@
 
 namespace overlook::measure {
 
-inline caveclod::Hierarchy baked(const mesh::Mesh& mesh) {
+inline caveclod::Hierarchy baked(const mesh::Mesh& mesh, const caveclod::BakeOptions& options = {}) {
     caveclod::BakeReport report;
-    auto hierarchy = caveclod::bake(mesh, {}, report, [](double) {});
+    auto hierarchy = caveclod::bake(mesh, options, report, [](double) {});
     EXPECT_TRUE(hierarchy);
     return std::move(*hierarchy);
 }

@@ -98,6 +98,31 @@ constexpr Trial kTrials[] = {
     Trial{"S19", "frames_until_budget_met", "caveclod@error-px=0.25", "caveclod@error-px=0.25@operations=20"}};
 INSTANTIATE_TEST_SUITE_P(OfTheSuite, MeshGate, testing::ValuesIn(kTrials), name_of);
 
+// Baked to keep thin things, masts stand at the default error; by as small pictures and few frames as here.
+TEST(MeshGates, AreKeptByMastsThatAreBakedToStay) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Result<std::vector<Case>> cases = read_cases(kCases);
+    ASSERT_TRUE(cases);
+    auto found = std::find_if(cases->begin(), cases->end(), [](const Case& each) { return each.number == "S10"; });
+    ASSERT_NE(found, cases->end());
+    ScratchFolder folder;
+    Case each = for_meshes(*found);
+    each.flight = each.mesh_flight = folder / "flight.json";
+    ASSERT_TRUE(write_file(each.flight, std::string_view(scene::json_from_flight(sample::masts_flight()))));
+    MethodSpec spec = *parse_method("caveclod");
+    for (bool keeps_thin : {true, false}) {
+        caveclod::BakeOptions options;
+        options.simplify.keeps_thin = keeps_thin, options.precision.position_bits = 16;
+        World world = world_of("masts", baked(sample::masts_mesh(), options));
+        world.base.near_m = 0.01;
+        Stage stage{world, context->renderer(), 160, 120, 6, 1, ""};
+        Result<SuiteResult> result = run_suite(stage, {each}, std::span(&spec, 1), [](double) {});
+        ASSERT_TRUE(result) << result.error().message;
+        double lost = result->verdicts.at(0).finding.figures.at("lost_mast_share");
+        EXPECT_EQ(lost < 0.15, keeps_thin) << lost;
+    }
+}
+
 // Of the cases that methods of meshes run alone; the others' inputs stand in stability_gates_test.
 TEST(MeshGates, HaveEachAnInputThatMustFailIt) {
     std::set<std::string> tried;

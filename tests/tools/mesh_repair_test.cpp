@@ -23,7 +23,7 @@ Repaired repaired(const std::vector<glm::vec3>& positions, const std::vector<Cor
     for (uint32_t f = 0; f < faces.size(); ++f) r.mesh.face_source.push_back(f);
     r.report.triangle_count = faces.size();
     repair(r.mesh, r.report);
-    expect_whole({r.mesh, r.report});
+    expect_whole({r.mesh, r.report, {}});
     return r;
 }
 

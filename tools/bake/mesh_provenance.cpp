@@ -32,6 +32,8 @@ const Choice kChoices[] = {
      [](BakeChoices& c, double v) { c.bake.simplify.seams.uv_texels = v; }, 0, 1e6},
     {"seam-deg", [](const BakeChoices& c) { return c.bake.simplify.seams.normal_deg; },
      [](BakeChoices& c, double v) { c.bake.simplify.seams.normal_deg = v; }, 0, 180},
+    {"keep-thin", [](const BakeChoices& c) { return double(c.bake.simplify.keeps_thin); },
+     [](BakeChoices& c, double v) { c.bake.simplify.keeps_thin = v != 0; }, 0, 1},
     {"uv-bits", [](const BakeChoices& c) { return double(c.bake.precision.uv_bits); },
      [](BakeChoices& c, double v) { c.bake.precision.uv_bits = uint32_t(v); }, 8, 20},
     {"normal-bits", [](const BakeChoices& c) { return double(c.bake.precision.normal_bits); },

@@ -1,6 +1,7 @@
 #include "tools/bake_lod/mesh_verb.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -53,6 +54,15 @@ Result<uint64_t> write_file(const MeshArgs& args, const caveclod::Hierarchy& hie
     return writer->commit();
 }
 
+constexpr std::array<const char*, caveclod::kHindranceCount> kHindranceNames{
+    "fixed", "seams", "topology", "orientation", "turned", "texels", "degrees", "error", "order"};
+
+nlohmann::ordered_json json_of(const caveclod::HindranceCounts& counts) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (size_t h = 0; h < counts.size(); ++h) json[kHindranceNames[h]] = counts[h];
+    return json;
+}
+
 nlohmann::ordered_json json_of(const MeshArgs& args, const Done& done) {
     const mesh::MeshReport& in = done.input;
     const caveclod::BakeReport& bake = done.bake;
@@ -84,17 +94,13 @@ nlohmann::ordered_json json_of(const MeshArgs& args, const Done& done) {
             {"needs", bake.simplify.need_count},
             {"depth", bake.simplify.depth},
             {"triangles_coarsest", done.base_face_count},
-            {"positions_kept_by",
-             {{"fixed", bake.simplify.hindrances[0]},
-              {"seams", bake.simplify.hindrances[1]},
-              {"topology", bake.simplify.hindrances[2]},
-              {"orientation", bake.simplify.hindrances[3]},
-              {"measured", bake.simplify.hindrances[4]}}},
+            {"positions_kept_by", json_of(bake.simplify.hindrances)},
             {"seams", args.seams},
             {"floor_estimate", bake.floor_face_estimate},
             {"floor_estimate_budgeted", bake.budgeted_floor_face_estimate},
             {"size_m", bake.size_m},
             {"triangles_at_one_percent", bake.face_count_at_one_percent},
+            {"positions_at_one_percent_kept_by", json_of(bake.kept_at_one_percent)},
             {"seam_uv_error_texels", bake.simplify.seam_error.uv_texels},
             {"seam_normal_error_deg", bake.simplify.seam_error.normal_deg},
             {"seam_shift_m", bake.simplify.greatest_seam_shift_m},
@@ -125,12 +131,12 @@ void report(const MeshArgs& args, const Done& done, const command::Common& commo
                                         "triangles a second)",
                                         bake.simplify.collapse_count, bake.simplify.depth, bake.simplify.need_count, done.read_s,
                                         done.bake_s, done.million_triangles_per_s()));
-    command::detail(common,
-                    fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
-                                "topology, {} because a face would fold, {} because one would look away from its source or "
-                                "a seam's budget would be passed",
-                                with_commas(done.base_face_count), bake.simplify.hindrances[0], bake.simplify.hindrances[1],
-                                bake.simplify.hindrances[2], bake.simplify.hindrances[3], bake.simplify.hindrances[4]));
+    const caveclod::HindranceCounts& kept = bake.simplify.hindrances;
+    command::detail(
+        common, fmt::format("the coarsest has {} triangles: of its positions {} must stay, {} are kept by seams, {} by "
+                            "topology, {} because a face would fold, {} because one would look away from its source, {} "
+                            "because a seam's budget would be passed",
+                            with_commas(done.base_face_count), kept[0], kept[1], kept[2], kept[3], kept[4], kept[5] + kept[6]));
     command::detail(common, fmt::format("at an error of 1 % of its diagonal ({:.3g} m) {} triangles are left, {:.1f} %",
                                         0.01 * bake.size_m, with_commas(bake.face_count_at_one_percent),
                                         100 * double(bake.face_count_at_one_percent) / double(bake.source_face_count)));
@@ -190,6 +196,10 @@ CLI::App* add_mesh_verb(CLI::App& app, MeshArgs& args, command::Common& common) 
                      "Bits of each coordinate; the rounding counts towards every error")
         ->check(CLI::Range(8, 20))
         ->capture_default_str();
+    verb->add_flag(
+        "--keep-thin", args.choices.bake.simplify.keeps_thin,
+        "Keep masts, railings and wires until they are a fraction of a pixel wide: what would flatten them is stated at 16 "
+        "times what it takes");
     caveclod::SeamBudget& seams = args.choices.bake.simplify.seams;
     verb->add_option("--seams", args.seams,
                      "strict: every drawn corner has attributes that the source has there. budgeted: seams may move, by no more "

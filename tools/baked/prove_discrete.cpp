@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRoundingShare = 1e-7;  // of the thing's size: what float positions and double arithmetic cannot tell apart
 constexpr int kTimes = 64;
+constexpr uint64_t kMostSteps =
+    1 << 18;  // halvings for each level and way: a bound that is not proven anew by then is not broken
 
 std::vector<caveclod::Triangle> triangles_of_source(const mesh::MeshFile& source) {
     std::vector<caveclod::Triangle> triangles;
@@ -57,10 +59,11 @@ ChainProof prove(const Chain& chain, std::span<const mesh::MeshFile> sources, co
     proof.finest_stated_m = chain.finest_error_m;
     double rounding_m = kRoundingShare * (chain.radius_m + glm::length(chain.middle_m));
     LevelsChainOptions options;
+    options.most_steps = kMostSteps;
     for (size_t k = 0; k < sources.size(); ++k) {
         caveclod::Distance off = caveclod::two_sided_distance(
             caveclod::TriangleTree(triangles_of_source(sources[k])), caveclod::TriangleTree(triangles_of(chain, chain.levels[k])),
-            options.gap, std::max(chain.position_step_m / 8, rounding_m), options.most_steps);
+            options.gap, std::max(0.05 * chain.finest_error_m, rounding_m), options.most_steps);
         proof.finest = {std::max(proof.finest.least_m, off.least_m), std::max(proof.finest.most_m, off.most_m)};
         progress(0.3 * double(k + 1) / double(sources.size()));
     }

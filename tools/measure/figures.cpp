@@ -50,6 +50,8 @@ constexpr std::array<Figure, 33> kFigures = {{
     {"uploaded_bytes", "sent to the renderer", [](R r) -> O { return double(r.counters.uploaded_bytes); }, true},
     {"tested", "places looked at to decide", [](R r) -> O { return double(r.counters.tested_count); }, true},
     {"resident_bytes", "in the renderer's memory", [](R r) -> O { return double(r.counters.resident_bytes); }, true},
+    {"streamed_bytes", "of what is streamed, there: what its budget counts",
+     [](R r) -> O { return double(r.counters.streamed_bytes); }, true},
     {"events", "sudden changes that the method knows of", [](R r) -> O { return double(r.counters.event_count); }, true},
     {"key_triangles", "of the triangles, those drawn into keyframes",
      [](R r) -> O { return double(r.counters.key_triangle_count); }, true},

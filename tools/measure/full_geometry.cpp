@@ -58,7 +58,7 @@ Counters FullGeometry::draw(const gl::Target& target, const view::Camera& camera
     if (!world_->mesh) {
         terrain::DrawOptions look = world_->look;
         look.part = part;
-        return draw_cut(*world_, target, cut_, camera, look);
+        return draw_cut(*world_->drawing, world_->resident_bytes, target, cut_, camera, look);
     }
     caveclod::DrawOptions look = world_->mesh->look;
     look.part = part;

@@ -9,20 +9,10 @@
 namespace overlook::measure {
 namespace {
 
-caveclod::FrameOptions options_of(const MethodSpec& spec) {
-    caveclod::FrameOptions options;
-    if (spec.variant == "paper") options.variant = caveclod::Variant::paper;
-    if (spec.variant == "shared") options.variant = caveclod::Variant::shared;
-    for (const auto& [name, value] : spec.settings) {
-        if (name != "samples") caveclod::set(options, name, value);
-    }
-    return options;
-}
-
 class Caveclod : public Method {
   public:
     Caveclod(World& world, const MethodSpec& spec)
-        : world_(world), frames_(*world.mesh->hierarchy, *world.mesh->mesh, *world.mesh->drawing, options_of(spec)) {}
+        : world_(world), frames_(*world.mesh->hierarchy, *world.mesh->mesh, *world.mesh->drawing, refining_of(spec)) {}
 
     void decide(const view::Camera& camera, uint32_t frame) override {
         camera_ = camera;
@@ -31,17 +21,7 @@ class Caveclod : public Method {
     }
 
     Counters draw(const gl::Target& target) override {
-        caveclod::FrameCounts counts = frames_.draw(target, world_.mesh->look);
-        Counters counters;
-        counters.triangle_count = counts.triangle_count;
-        counters.vertex_reference_count = 3 * counts.triangle_count;
-        counters.draw_call_count = counts.draw_call_count;
-        counters.uploaded_bytes = counts.uploaded_bytes;
-        counters.tested_count = counts.evaluated_count;
-        counters.resident_bytes = world_.resident_bytes + 12 * counts.refined_triangle_count;
-        counters.operation_count = counts.split_count + counts.collapse_count;
-        counters.camera_bytes = counts.camera_bytes;
-        counters.wrong_corner_count = counts.wrong_corner_count;
+        Counters counters = counters_of(frames_.draw(target, world_.mesh->look), world_.resident_bytes);
         counters.predicted_error_px = predicted_error_px();
         return counters;
     }
@@ -125,6 +105,30 @@ class Discrete : public Method {
 };
 
 }  // namespace
+
+caveclod::FrameOptions refining_of(const MethodSpec& spec) {
+    caveclod::FrameOptions options;
+    if (spec.variant == "paper") options.variant = caveclod::Variant::paper;
+    if (spec.variant == "shared") options.variant = caveclod::Variant::shared;
+    for (const SettingKind& kind : caveclod::setting_kinds(options.variant))
+        caveclod::set(options, kind.name, setting(spec, std::string(kind.name)));
+    return options;
+}
+
+Counters counters_of(const caveclod::FrameCounts& counts, uint64_t resident_bytes) {
+    Counters counters;
+    counters.triangle_count = counts.triangle_count;
+    counters.vertex_reference_count = 3 * counts.triangle_count;
+    counters.draw_call_count = counts.draw_call_count;
+    counters.uploaded_bytes = counts.uploaded_bytes;
+    counters.tested_count = counts.evaluated_count;
+    counters.resident_bytes = resident_bytes + 12 * counts.refined_triangle_count;
+    counters.operation_count = counts.split_count + counts.collapse_count;
+    counters.camera_bytes = counts.camera_bytes;
+    counters.wrong_corner_count = counts.wrong_corner_count;
+    counters.predicted_error_px = counts.error_px;
+    return counters;
+}
 
 std::unique_ptr<Method> make_caveclod_method(World& world, const MethodSpec& spec) {
     return std::make_unique<Caveclod>(world, spec);

@@ -22,6 +22,7 @@ struct Counters {
     uint64_t uploaded_bytes = 0;
     uint64_t tested_count = 0;        // places looked at to decide
     uint64_t resident_bytes = 0;      // in the renderer's memory while the frame is drawn
+    uint64_t streamed_bytes = 0;      // of what is streamed, there: what its budget counts
     uint64_t event_count = 0;         // sudden changes that the method knows of: a new keyframe, a level exchanged at once
     uint64_t key_triangle_count = 0;  // of the triangles, those drawn into keyframes
     uint64_t key_pixel_count = 0;     // of keyframes, drawn besides the picture's own

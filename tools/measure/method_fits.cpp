@@ -1,6 +1,7 @@
 // Which methods draw which things.
 #include "tools/measure/discrete_method.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/streamed_method.h"
 
 namespace overlook::measure {
 
@@ -25,6 +26,9 @@ Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) 
                                      : spec.name == "discrete" && !draws_meshes(spec) ? "chains of levels"
                                                                                       : "meshes";
             return impossible("--method {}: it draws {}, and {} holds a {}", named(spec), drawn, world.name, world.thing());
+        }
+        if (is_streamed(spec)) {
+            if (Result<void> streams = check_streams(spec, world); !streams) return streams;
         }
         if (spec.name != "discrete" || !world.is_mesh()) continue;
         for (const SettingKind& kind : kind_of(spec)->settings) {

@@ -16,6 +16,7 @@
 #include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/mesh_method.h"
+#include "tools/measure/streamed_method.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -27,6 +28,7 @@ constexpr SettingKind kMorph{"morph", 0, 1, terrain::kDefaultMorph, false};
 constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
+constexpr std::array<SettingKind, 3> kTileSettings = {kErrorPx, kSamples, kMorph};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 // What runtime says of a method, and the samples of the pictures.
 std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
@@ -35,18 +37,27 @@ std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
     return all;
 }
 
+std::vector<SettingKind> with_streaming(std::span<const SettingKind> settings) {
+    std::vector<SettingKind> all(settings.begin(), settings.end());
+    all.insert(all.end(), kStreamSettings.begin(), kStreamSettings.end());
+    return all;
+}
+
 std::vector<MethodKind> make_kinds() {
     static const std::vector<SettingKind> kSprite = with_samples(lod_sprite::setting_kinds());
     static const std::vector<SettingKind> kSpritePaper = with_samples(lod_sprite::paper::setting_kinds());
     static const std::vector<SettingKind> kOwn = with_samples(caveclod::setting_kinds(caveclod::Variant::own)),
-                                          kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper));
+                                          kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper)),
+                                          kBlocks = with_streaming(kOwn), kTiles = with_streaming(kTileSettings);
     std::vector<MethodKind> kinds = {{"terrain", "", kTerrainSettings},
                                      {"terrain", "hard", kHardSettings},
+                                     {"terrain", "streamed", kTiles},
                                      {"lod-sprite", "", kSprite},
                                      {"lod-sprite", "paper", kSpritePaper},
                                      {"caveclod", "", kOwn},
                                      {"caveclod", "paper", kOthers},
-                                     {"caveclod", "shared", kOthers}};
+                                     {"caveclod", "shared", kOthers},
+                                     {"caveclod", "streamed", kBlocks}};
     static std::vector<std::vector<SettingKind>> levels;
     for (const DiscreteVariant& one : discrete_variants()) levels.push_back(with_samples(discrete::setting_kinds(one.variant)));
     kinds.push_back({"discrete", "", levels.front()});
@@ -269,6 +280,7 @@ double morph_of(const MethodSpec& spec) {
 
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
+    if (is_streamed(spec)) return make_streamed_method(world, spec);
     if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     if (spec.name == "caveclod") return make_caveclod_method(world, spec);

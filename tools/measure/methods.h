@@ -53,6 +53,7 @@ bool draws_chains(const MethodSpec& spec);
 // Fails with Exit::impossible:
 //   "--method caveclod: it draws meshes, and valley.json holds a terrain"
 //   "--method discrete: search is of chains of levels, and duck.ovl holds a mesh"
+// and as check_streams, of those that stream.
 Result<void> check_draws(std::span<const MethodSpec> specs, const World& world);
 
 // The spec must come from above and draw what the world holds; the world must outlive the method.

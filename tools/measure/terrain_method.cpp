@@ -18,7 +18,9 @@ class Refined : public Method {
         world_.refiner->cut_by_pixels(camera, error_px_, cut_, morph_);
         controller_.frame_done(double(cut_.triangle_count()));
     }
-    Counters draw(const gl::Target& target) override { return draw_cut(world_, target, cut_, camera_, world_.look); }
+    Counters draw(const gl::Target& target) override {
+        return draw_cut(*world_.drawing, world_.resident_bytes, target, cut_, camera_, world_.look);
+    }
     // The same cut again, with what it is worth: the frames that are timed do without.
     std::optional<Promises> promises() override {
         terrain::Cut cut;
@@ -38,16 +40,16 @@ class Refined : public Method {
 
 }  // namespace
 
-Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cut, const view::Camera& camera,
-                  const terrain::DrawOptions& look) {
-    world.drawing->draw(target, cut, camera, look);
+Counters draw_cut(terrain::Drawing& drawing, uint64_t resident_bytes, const gl::Target& target, const terrain::Cut& cut,
+                  const view::Camera& camera, const terrain::DrawOptions& look) {
+    drawing.draw(target, cut, camera, look);
     Counters counters;
     counters.triangle_count = cut.triangle_count();
     counters.vertex_reference_count = cut.indices.size();
     counters.draw_call_count = kDrawCalls;
-    counters.uploaded_bytes = world.drawing->uploaded_bytes();
+    counters.uploaded_bytes = drawing.uploaded_bytes();
     counters.tested_count = cut.tested_count;
-    counters.resident_bytes = world.resident_bytes + counters.uploaded_bytes;
+    counters.resident_bytes = resident_bytes + counters.uploaded_bytes;
     counters.predicted_error_px = cut.predicted_error_px;
     return counters;
 }

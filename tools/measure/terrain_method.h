@@ -17,8 +17,8 @@ std::unique_ptr<Method> make_terrain_method(World& world, const view::ErrorBudge
 // Every triangle of the raster, whether in view or not.
 terrain::Cut full_cut(const World& world);
 
-// Draws a cut and counts what that takes.
-Counters draw_cut(World& world, const gl::Target& target, const terrain::Cut& cut, const view::Camera& camera,
-                  const terrain::DrawOptions& look);
+// Draws a cut and counts what that takes. resident_bytes: of the drawing in the renderer's memory, without the cut's own.
+Counters draw_cut(terrain::Drawing& drawing, uint64_t resident_bytes, const gl::Target& target, const terrain::Cut& cut,
+                  const view::Camera& camera, const terrain::DrawOptions& look);
 
 }  // namespace overlook::measure

@@ -85,6 +85,7 @@ Result<World> read_world(const std::string& path) {
 
     World world;
     world.name = path.substr(path.rfind('/') + 1);
+    world.asset_path = asset;
     std::string hashes = content_hash(scene_file->bytes()) + content_hash(asset_file->bytes());
     world.content_hash = content_hash(std::as_bytes(std::span(hashes)));
     Result<double> near_m = read_asset(*file, path, scene->layers[0], world);

@@ -45,6 +45,7 @@ struct ChainWorld {
 struct World {
     std::string name;          // of the scene's file, without its folder
     std::string content_hash;  // of the scene and of everything it names
+    std::string asset_path;    // the baked file, for what is streamed of it
     std::unique_ptr<terrain::Terrain> terrain;
     std::optional<terrain::Refiner> refiner;
     std::optional<terrain::Drawing> drawing;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/bake.h"
@@ -163,6 +164,28 @@ TEST(SeamsProof, BudgetsAreKeptInWhatTheBakerReports) {
         EXPECT_LE(report.simplify.seam_error.normal_deg, 10);
         EXPECT_LE(report.simplify.greatest_seam_shift_m, report.simplify.greatest_error_m * (1 + 1e-6));
         EXPECT_LE(report.budgeted_floor_face_estimate, report.floor_face_estimate);
+    }
+}
+
+TEST(BakeReport, SaysOfEachPositionAtOnePercentWhatKeepsIt) {
+    mesh::Mesh mesh = test::sphere(48, 24, 0.05);
+    for (const BakeOptions& options : {BakeOptions{}, budgeted(15, 1)}) {
+        BakeReport report;
+        auto h = bake(mesh, options, report, [](double) {});
+        ASSERT_TRUE(h) << h.error().message;
+        Applied applied(h->split_count(), 0);
+        for (uint32_t i = 0; i < h->split_count(); ++i) applied[i] = double(h->error_m[i]) > 0.01 * report.size_m;
+        CutFaces cut = faces_of(*h, applied);
+        ASSERT_EQ(cut.face.size(), report.face_count_at_one_percent);
+        std::vector<uint32_t> positions;
+        for (const auto& face : cut.positions) positions.insert(positions.end(), face.begin(), face.end());
+        std::sort(positions.begin(), positions.end());
+        positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+        const HindranceCounts &at = report.kept_at_one_percent, &coarsest = report.simplify.hindrances;
+        EXPECT_EQ(std::accumulate(at.begin(), at.end(), uint64_t(0)), positions.size());
+        EXPECT_EQ(std::accumulate(coarsest.begin(), coarsest.end(), uint64_t(0)), h->base_position_count);
+        EXPECT_GT(at[size_t(Hindrance::error)], 0u);
+        EXPECT_EQ(coarsest[size_t(Hindrance::error)] + coarsest[size_t(Hindrance::order)], 0u);
     }
 }
 

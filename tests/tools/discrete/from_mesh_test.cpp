@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 
 #include "formats/parallel.h"
@@ -144,12 +145,34 @@ TEST(Foliage, LosesTheSmallestOfNeighboursFirst) {
     for (const mesh::Corners& f : mesh.faces) shape.faces.push_back(f), shape.face_surface.push_back(0);
     Foliage foliage(shape);
     ASSERT_EQ(foliage.card_count(), 64u);
+    std::vector<uint32_t> half(32);
+    std::iota(half.begin(), half.end(), 0u);
     std::set<int> kept;
-    for (const ShapeVertex& v : foliage.thinned(32, 0).shape.vertices) kept.insert(int(std::lround(v.at_m.x)));
+    for (const ShapeVertex& v : foliage.thinned(half, 0).shape.vertices) kept.insert(int(std::lround(v.at_m.x)));
     for (int i : kept) EXPECT_EQ(i % 2, 0);
     EXPECT_EQ(kept.size(), 32u);
     // Every lost card has its larger neighbour 1 m away; from its far corner to that one's edge it is 0.9 m at the most.
-    EXPECT_NEAR(foliage.thinned(32, 0).error_m, 0.9, 1e-6);
+    EXPECT_NEAR(foliage.thinned(half, 0).error_m, 0.9, 1e-6);
+}
+
+TEST(Foliage, KeepsACardThatStandsAloneHoweverSmallItIs) {
+    sample::ShapeMaker shapes({test::leaves()});
+    for (int i = 0; i < 64; ++i) shapes.add_card(0, glm::dvec3(0.13 * i, 0, 0), {0.1, 0, 0}, {0, 0, 0.1}, {0, -1, 0});
+    shapes.add_card(0, glm::dvec3(3, 20, 0), {0.01, 0, 0}, {0, 0, 0.01}, {0, -1, 0});
+    mesh::Mesh mesh = shapes.take();
+    Shape shape;
+    for (const glm::vec3& p : mesh.positions_m)
+        shape.vertices.push_back({glm::dvec3(p), 0, {0, 0, 1}, {0, 0}, {255, 255, 255, 255}});
+    for (const mesh::Corners& f : mesh.faces) shape.faces.push_back(f), shape.face_surface.push_back(0);
+    Foliage foliage(shape);
+    for (double limit_m : {0.3, 1.0, 3.0}) {
+        Foliage::Thinned thinned = foliage.thinned(foliage.kept_within(limit_m), 0);
+        EXPECT_LE(thinned.error_m, limit_m);
+        EXPECT_LT(thinned.shape.faces.size(), 64u);
+        double farthest_m = 0;
+        for (const ShapeVertex& v : thinned.shape.vertices) farthest_m = std::max(farthest_m, v.at_m.y);
+        EXPECT_EQ(farthest_m, 20);
+    }
 }
 
 }  // namespace

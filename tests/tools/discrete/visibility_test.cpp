@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "formats/parallel.h"
 #include "tests/tools/discrete/shapes_for_tests.h"
 #include "tools/bake/discrete/from_levels.h"
 #include "tools/bake/discrete/visibility_optimised.h"
@@ -195,7 +196,12 @@ TEST(OptimisedVisibility, LeavesAtLeastThirtyPercentLessResidualThanWhiteNoise) 
 }
 TEST(OptimisedVisibility, IsTheSameForAnyNumberOfThreads) {
     Chain chain = ball_and(2, 0.8);
-    EXPECT_EQ(optimised_visibility(chain, 0), optimised_visibility(chain, 0));
+    set_thread_count(1);
+    Visibility one = optimised_visibility(chain, 0);
+    set_thread_count(4);
+    Visibility four = optimised_visibility(chain, 0);
+    set_thread_count(0);
+    EXPECT_EQ(one, four);
 }
 
 }  // namespace

@@ -42,7 +42,14 @@ void note_floor(const Hierarchy& hierarchy, BakeReport& report) {
     glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
     for (const glm::vec3& p : hierarchy.positions_m) low = glm::min(low, glm::dvec3(p)), high = glm::max(high, glm::dvec3(p));
     report.size_m = hierarchy.positions_m.empty() ? 0 : glm::length(high - low);
-    report.face_count_at_one_percent = face_count_at(hierarchy, 0.01 * report.size_m);
+    double error_m = 0.01 * report.size_m;
+    report.face_count_at_one_percent = face_count_at(hierarchy, error_m);
+    report.kept_at_one_percent = report.simplify.hindrances;
+    for (uint32_t i = 0; i < hierarchy.split_count(); ++i) {
+        bool is_applied = double(std::max(hierarchy.error_m[i], hierarchy.finest_error_m)) > error_m;
+        Hindrance why = double(report.simplify.own_error_m[i]) > error_m ? Hindrance::error : Hindrance::order;
+        if (is_applied) ++report.kept_at_one_percent[size_t(why)];
+    }
 }
 
 // The looks as they will be stored: what seams may cost is measured on what will be drawn.

@@ -27,6 +27,7 @@ struct BakeReport {
     uint64_t floor_face_estimate = 0, budgeted_floor_face_estimate = 0;
     double size_m = 0;                       // diagonal of the box round all positions
     uint64_t face_count_at_one_percent = 0;  // of the coarsest cut with a stated error of at most a hundredth of size_m
+    HindranceCounts kept_at_one_percent{};   // its positions by what keeps them
     SimplifyReport simplify;
     Quantised quantised;
 };

@@ -101,7 +101,7 @@ Hindrance hindrance_of(const WorkingMesh& mesh, uint32_t position) {
         if (!fan_of(star, position, at, fan) || !keeps_groups(mesh, fan, turned)) continue;
         Hindrance here = !keeps_topology(mesh, fan)      ? Hindrance::topology
                          : !keeps_orientation(mesh, fan) ? Hindrance::orientation
-                                                         : Hindrance::measured;
+                                                         : Hindrance::turned;
         farthest = std::max(farthest, here);
     }
     return farthest;

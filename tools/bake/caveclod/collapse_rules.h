@@ -25,15 +25,23 @@ bool keeps_groups(const WorkingMesh& mesh, const Fan& fan, TurnedVertices& turne
 // may do as it likes.
 bool keeps_orientation(const WorkingMesh& mesh, const Fan& fan);
 
-// The rule that the collapse of a position comes to, taking of all its edges the one that comes farthest.
+// What keeps a position in a cut. Of one that nothing may be done with any more: the rule that its collapse comes to, taking of
+// all its edges the one that comes farthest, and where all rules are kept what was measured. Of the others, what they cost.
 enum class Hindrance : uint8_t {
     fixed,        // the position must stay
     seams,        // keeps_groups
     topology,     // keeps_topology, or too many faces
     orientation,  // keeps_orientation
-    measured      // none of these: what was measured of it was refused
+    turned,       // a face would look away from its source
+    texels,       // a seam's budget would be passed
+    degrees,      // likewise
+    error,        // it goes, but what its collapse makes is farther off than the cut may be
+    order         // it goes for less, but one that is too dear goes before it
 };
-constexpr size_t kHindranceCount = 5;
+constexpr size_t kHindranceCount = 9;
+using HindranceCounts = std::array<uint64_t, kHindranceCount>;
+
+// One of the first four; turned where they all are kept.
 Hindrance hindrance_of(const WorkingMesh& mesh, uint32_t position);
 
 }  // namespace overlook::caveclod

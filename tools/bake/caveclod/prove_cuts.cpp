@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "formats/parallel.h"
+#include "tools/bake/caveclod/source_parts.h"
 #include "tools/bake/caveclod/surface_distance.h"
-#include "tools/bake/caveclod/turned_faces.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -35,6 +35,7 @@ double size_m(const Hierarchy& h) {
 struct Source {
     CutFaces finest;
     TriangleTree tree;
+    SourceParts parts;
     double rounding_m = 0, slack_m = 0;
 };
 
@@ -49,7 +50,7 @@ uint64_t turned_count(const Hierarchy& h, const Source& source, const CutFaces& 
     for (size_t f = 0; f < cut.face.size(); ++f) {
         if (cut.positions[f] == source.finest.positions[cut.face[f]]) continue;
         Triangle face = triangle_of(h, cut.positions[f]);
-        count += first_turned(source.tree, std::span(&face, 1), stated_m, source.slack_m, std::span(&cut.face[f], 1)) == 0;
+        count += source.parts.first_turned(std::span(&face, 1), stated_m, source.slack_m, std::span(&cut.face[f], 1)) == 0;
     }
     return count;
 }
@@ -74,7 +75,8 @@ Applied proof_cut(const Hierarchy& h, const ProofOptions& options, uint64_t i) {
 CutsProof prove_cuts(const Hierarchy& h, const ProofOptions& options, const std::function<void(double)>& progress) {
     CutFaces finest = faces_of(h, Applied(h.split_count(), 1));
     TriangleTree tree = tree_of(h, finest);
-    Source source{std::move(finest), std::move(tree), kRoundingShare * size_m(h), turn_slack_m(h.positions_m)};
+    SourceParts parts(h.positions_m, finest.positions);
+    Source source{std::move(finest), std::move(tree), std::move(parts), kRoundingShare * size_m(h), turn_slack_m(h.positions_m)};
     std::vector<Measured> cuts(options.cut_count);
     for (uint64_t begin = 0; begin < options.cut_count; begin += kCutsAtOnce) {
         progress(double(begin) / double(options.cut_count));

@@ -27,7 +27,7 @@ Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, 
     }();
     if (!working) return tl::unexpected(working.error());
     CollapseLog log;
-    Passes passes(*working, options.seams, counted);
+    Passes passes(*working, options, counted);
     while (passes.run(options.least_face_count, log)) progress(share_done(passes.face_count(), mesh.faces.size()));
     Result<Hierarchy> made = [&] {
         Stopwatch watch(counted.rows_s);
@@ -36,7 +36,8 @@ Result<Hierarchy> build_hierarchy(const mesh::Mesh& mesh, const Groups& groups, 
     if (!made) return made;
     Hierarchy& hierarchy = *made;
     for (uint32_t p = 0; p < working->some_corner.size(); ++p)
-        if (working->is_alive(p)) ++counted.hindrances[size_t(hindrance_of(*working, p))];
+        if (working->is_alive(p)) ++counted.hindrances[size_t(passes.hindrance_of(p))];
+    counted.own_error_m.assign(log.error_m.rbegin(), log.error_m.rend());
     counted.collapse_count = log.gone.size();
     counted.depth = depth_of(hierarchy);
     counted.need_count = hierarchy.needs.size();

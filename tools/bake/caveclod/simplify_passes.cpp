@@ -9,6 +9,7 @@
 #include "formats/parallel.h"
 #include "tools/bake/caveclod/attribute_deviation.h"
 #include "tools/bake/caveclod/stopwatch.h"
+#include "tools/bake/caveclod/thickness.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -17,8 +18,14 @@ constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
 // What is known of a position's candidate; kNext: it was refused, and the next dearer one is wanted
 // (where seams move).
 constexpr uint8_t kNothing = 0, kGuess = 1, kNext = 2, kAllowed = 3;
-// A pass takes from the cheapest this share of all candidates; those measured worse than kWorst times its limit wait.
-constexpr double kShareOfPass = 0.5, kWorst = 2.5;
+// A pass takes from the cheapest this share of all candidates; those measured worse than so many times its limit wait. A collapse
+// out of order holds all that comes after it at its error, so where the limit is above kCoarseShare of the mesh's size, and few
+// faces are left, a pass is choosier.
+struct Choosiness {
+    double share_of_pass, worst;
+};
+constexpr Choosiness kFine{0.5, 2.5}, kCoarse{0.25, 1};
+constexpr double kCoarseShare = 1e-3;
 // Below this share of the mesh's size errors are rounding, and all the same.
 constexpr double kLeastLimitShare = 1e-8;
 // The queue keeps costs as float: what waited must not miss its limit by their rounding.
@@ -35,40 +42,50 @@ float float_at_least(double value) {
     return double(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
-std::vector<Triangle> triangles_of(const WorkingMesh& mesh) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(mesh.face_count());
-    for (const WorkingFace& face : mesh.faces)
-        triangles.push_back({mesh.at(face.position[0]), mesh.at(face.position[1]), mesh.at(face.position[2])});
-    return triangles;
+SourceParts parts_of(const WorkingMesh& mesh) {
+    std::vector<std::array<uint32_t, 3>> faces;
+    faces.reserve(mesh.face_count());
+    for (const WorkingFace& face : mesh.faces) faces.push_back({face.position[0], face.position[1], face.position[2]});
+    return SourceParts(mesh.positions_m, faces);
 }
 
 }  // namespace
 
-Passes::Passes(WorkingMesh& mesh, const SeamBudget& seams, SimplifyReport& report)
+Passes::Passes(WorkingMesh& mesh, const SimplifyOptions& options, SimplifyReport& report)
     : mesh_(mesh),
-      seams_(seams),
+      seams_(options.seams),
       report_(report),
-      source_(std::span<const Triangle>()),
+      source_({}, {}),
       refused_(mesh.some_corner.size()),
       slack_m_(turn_slack_m(mesh.positions_m)),
       face_error_m_(mesh.face_count(), 0.0f) {
     parallel_ranges(3, 1, [&](size_t part, size_t) {
-        if (part == 0) source_ = TriangleTree(triangles_of(mesh));
+        if (part == 0) source_ = parts_of(mesh);
         if (part == 1) quadrics_ = make_quadrics(mesh);
         if (part == 2) map_ = make_surface_map(mesh);
     });
     face_count_ = mesh.face_count();
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
-    limit_m_ = kLeastLimitShare * double(glm::length(high - low));
+    size_m_ = double(glm::length(high - low));
+    limit_m_ = kLeastLimitShare * size_m_;
+    if (options.keeps_thin) find_thin_things(size_m_);
     size_t position_count = mesh.some_corner.size();
     for (uint32_t p = 0; p < position_count; ++p)
         if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
     candidates_.resize(position_count);
     known_.assign(position_count, kNothing);
+    refused_by_.assign(position_count, Hindrance::turned);
     touched_in_.assign(position_count, 0);
     target_in_.assign(position_count, 0);
+}
+
+void Passes::find_thin_things(double size_m) {
+    std::vector<Triangle> faces;
+    for (const WorkingFace& face : mesh_.faces)
+        faces.push_back({mesh_.at(face.position[0]), mesh_.at(face.position[1]), mesh_.at(face.position[2])});
+    std::vector<float> thickness_m = thickness_of_positions(mesh_, TriangleTree(faces), slack_m_, kThinnestShare * size_m);
+    for (size_t p = 0; p < thickness_m.size(); ++p) map_.may_lose_m[p] = float(kMostThinning) * thickness_m[p];
 }
 
 bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
@@ -83,6 +100,20 @@ bool Passes::run(uint64_t least_face_count, CollapseLog& log) {
     std::erase_if(alive_, [&](uint32_t p) { return !mesh_.is_alive(p); });
     ++report_.pass_count;
     return true;
+}
+
+Hindrance Passes::hindrance_of(uint32_t position) const {
+    Hindrance rule = caveclod::hindrance_of(mesh_, position);
+    return rule == Hindrance::turned ? refused_by_[position] : rule;
+}
+
+bool Passes::is_coarse() const {
+    return limit_m_ > kCoarseShare * size_m_;
+}
+
+// What a collapse may be measured at and be made in this pass.
+double Passes::most_allowed_m() const {
+    return limit_m_ * (is_coarse() ? kCoarse : kFine).worst;
 }
 
 void Passes::find_queue() {
@@ -110,7 +141,7 @@ void Passes::raise_limit() {
         if (candidates_[p].kept != kNone) costs_.push_back(float(candidates_[p].cost_m));
     if (costs_.empty()) limit_m_ = kForbidden_m;
     if (costs_.empty()) return;
-    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * kShareOfPass);
+    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * (is_coarse() ? kCoarse : kFine).share_of_pass);
     std::nth_element(costs_.begin(), bound, costs_.end());
     limit_m_ = std::max(limit_m_, double(*bound));
     for (uint32_t p : alive_)
@@ -201,13 +232,16 @@ void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& change
     const Fan& fan = prepared.fan;
     chosen.measured = measure_collapse(map_, mesh_, fan, chosen.fan, changes);
     uint32_t place = map_.placement[chosen.gone].place;
-    chosen.worst_m = std::max(chosen.measured.error_m, attribute_deviation_m(mesh_, fan, prepared.turned, place));
+    chosen.stated_m = std::max(chosen.measured.error_m, kThinningWeight * chosen.measured.thinning_m);
     chosen.fan_error_m = chosen.measured.error_m;
     for (uint32_t i = 0; i < fan.count; ++i)
         chosen.fan_error_m = std::max(chosen.fan_error_m, double(face_error_m_[fan.corner[i] / kCorners]));
     if (mesh_.seams_move) measure_seams(chosen, prepared, changes);
-    chosen.is_refused = !chosen.measured.faces_its_source || !chosen.seam_error.is_within(seams_);
-    bool may_be_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+    chosen.worst_m = std::max(chosen.stated_m, attribute_deviation_m(mesh_, fan, prepared.turned, place));
+    bool is_within = chosen.seam_error.is_within(seams_), has_slid = chosen.seam_error.uv_texels > seams_.uv_texels;
+    chosen.is_refused = !chosen.measured.faces_its_source || !is_within;
+    if (!is_within) chosen.refused_by = has_slid ? Hindrance::texels : Hindrance::degrees;
+    bool may_be_made = !chosen.is_refused && chosen.worst_m <= most_allowed_m();
     if (may_be_made) chosen.turned_face = find_turned_face(chosen, fan);
     chosen.is_refused |= chosen.turned_face != kNone;
 }
@@ -217,7 +251,7 @@ void Passes::measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapC
     for (uint32_t v : changes.inside) places.push_back(map_.placement[v].place);
     chosen.seam_error = seam_error(mesh_, prepared.fan, prepared.turned, changes.inside, places, seams_);
     chosen.seam_shift_m = seam_shift_m(mesh_, prepared.fan, prepared.turned);
-    chosen.worst_m = std::max(chosen.worst_m, chosen.seam_shift_m);
+    chosen.stated_m = std::max(chosen.stated_m, chosen.seam_shift_m);
 }
 
 // Every point of a new face is where the map has moved some point of the source, so some source is within the fan's error of it.
@@ -230,7 +264,7 @@ uint32_t Passes::find_turned_face(const Chosen& chosen, const Fan& fan) const {
         guesses[count] = fan.corner[i] / kCorners;
     }
     size_t turned =
-        first_turned(source_, std::span(faces).first(count), chosen.fan_error_m, slack_m_, std::span(guesses).first(count));
+        source_.first_turned(std::span(faces).first(count), chosen.fan_error_m, slack_m_, std::span(guesses).first(count));
     return turned == count ? kNone : fan.first + uint32_t(turned);
 }
 
@@ -238,7 +272,7 @@ void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog
     const Fan& fan = prepared.fan;
     log.gone.push_back(chosen.gone);
     log.kept.push_back(chosen.kept);
-    log.error_m.push_back(float_at_least(std::max(chosen.measured.error_m, chosen.seam_shift_m)));
+    log.error_m.push_back(float_at_least(chosen.stated_m));
     report_.seam_error.include(chosen.seam_error);
     report_.greatest_seam_shift_m = std::max(report_.greatest_seam_shift_m, chosen.seam_shift_m);
     for (uint32_t i = 0; i < fan.count; ++i) {
@@ -252,11 +286,11 @@ void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog
 void Passes::decide(CollapseLog& log) {
     Stopwatch watch(report_.selection_s);
     size_t made_before = log.gone.size();
-    double least_waiting_m = kForbidden_m;
+    double least_waiting_m = kForbidden_m, most_m = most_allowed_m();
     for (size_t i = 0; i < chosen_.size(); ++i) {
         Chosen& chosen = chosen_[i];
         Candidate& candidate = candidates_[chosen.gone];
-        chosen.is_made = !chosen.is_refused && chosen.worst_m <= kWorst * limit_m_;
+        chosen.is_made = !chosen.is_refused && chosen.worst_m <= most_m;
         if (chosen.turned_face != kNone) refused_.add(fans_[i].fan, chosen.turned_face);
         if (chosen.is_refused) {
             if (mesh_.seams_move)
@@ -264,8 +298,9 @@ void Passes::decide(CollapseLog& log) {
             else
                 candidate = {kForbidden_m, kNone, 0};
             ++report_.refused_count;
+            refused_by_[chosen.gone] = chosen.refused_by;
         } else if (!chosen.is_made) {
-            candidate.cost_m = chosen.worst_m / kWorst * kFloatAllowance;
+            candidate.cost_m = chosen.worst_m / most_m * limit_m_ * kFloatAllowance;
             least_waiting_m = std::min(least_waiting_m, candidate.cost_m);
             ++report_.postponed_count;
         } else {

@@ -1,5 +1,6 @@
 #include "tools/bake/caveclod/surface_map.h"
 
+#include <limits>
 #include <utility>
 
 namespace overlook::caveclod {
@@ -82,6 +83,7 @@ SurfaceMap make_surface_map(const WorkingMesh& mesh) {
     for (size_t p = 0; p < position_count; ++p) map.points[p].at_m = mesh.positions_m[p];
     for (auto [corner, other] : mesh.edge_corners)
         map.ends.push_back({mesh.position(next_corner(corner)), mesh.position(previous_corner(corner))});
+    map.may_lose_m.assign(position_count, std::numeric_limits<float>::infinity());
     map.star_begin.assign(position_count + 1, 0);
     fill_stars(map);
     for (uint32_t f = 0; f < face_count; ++f) {

@@ -50,7 +50,8 @@ struct alignas(8) Placement {
 };
 
 struct SurfaceMap {
-    std::vector<MapPoint> points;               // [P]
+    std::vector<MapPoint> points;   // [P]
+    std::vector<float> may_lose_m;  // [P] how far each may go inward without thinning what it is of; infinite at first
     std::vector<std::array<uint32_t, 2>> ends;  // [E] positions of each source edge
     std::vector<uint32_t> star_begin;           // [P + 1] rows over `star`
     std::vector<SourceEnd> star;                // [2E] the source edges at each position
@@ -86,6 +87,7 @@ struct MapChanges {
 
 struct Measured {
     double error_m = 0;            // of what the collapse makes; what it leaves as it was has its own already
+    double thinning_m = 0;         // the farthest inward that a position goes which may not go so far; 0: none does
     bool faces_its_source = true;  // no new face looks away from the source that is mapped to it
     uint32_t splice_begin = 0, splice_end = 0;
 };

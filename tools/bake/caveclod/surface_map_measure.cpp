@@ -30,6 +30,7 @@ class FanMeasure {
         place_crossings();
         measured.splice_end = uint32_t(changes_.splices.size());
         measured.error_m = std::sqrt(greatest2_) * (1 + kRoundingShare);
+        measured.thinning_m = thinning_m_;
         return measured;
     }
 
@@ -64,7 +65,13 @@ class FanMeasure {
         place(v, fan_.nearest_staying(face), 0);
     }
 
-    // The face between the spokes that v is between. Only where that would raise the error is the nearest one looked for.
+    // Whether a distance might be an inward one that thins what v is of.
+    bool may_thin(uint32_t v, double distance2) const {
+        double may_lose_m = double(map_.may_lose_m[v]);
+        return distance2 > may_lose_m * may_lose_m;
+    }
+
+    // The face between the spokes that v is between. Only where that would raise what is found is the nearest one looked for.
     void place_inside(uint32_t v, uint32_t sector) {
         glm::dvec3 p = at(v), from_kept = p - kept_;
         uint32_t start = sector;
@@ -72,7 +79,7 @@ class FanMeasure {
         if (sector == start)
             while (sector > fan_.first && glm::dot(beyond_spoke_[sector], from_kept) < 0) --sector;
         double distance2 = distance2_to_triangle(p, probes_[sector]);
-        if (distance2 > greatest2_)
+        if (distance2 > greatest2_ || may_thin(v, distance2))
             place_in_nearest(v);
         else
             place(v, sector, distance2);
@@ -100,6 +107,16 @@ class FanMeasure {
         std::atomic_ref(map_.placement[v]).store(Placement{number_, sector}, std::memory_order_relaxed);
         area_vectors_[sector] += glm::dvec3(map_.points[v].area_vector_m2);
         greatest2_ = std::max(greatest2_, distance2);
+        if (may_thin(v, distance2)) note_thinning(v, probes_[sector]);
+    }
+
+    // How far inward v goes, along its own normal: what slides along the wall takes nothing of the thickness.
+    void note_thinning(uint32_t v, const TriangleProbe& face) {
+        glm::dvec3 inward(-map_.points[v].area_vector_m2);
+        double length = glm::length(inward);
+        if (!(length > 0)) return;
+        double inward_m = glm::dot(nearest_in_triangle(at(v), face) - at(v), inward) / length;
+        if (inward_m > double(map_.may_lose_m[v])) thinning_m_ = std::max(thinning_m_, inward_m);
     }
 
     // Against what the source's positions in the face, and in part those at its corners, have round them.
@@ -227,7 +244,7 @@ class FanMeasure {
     uint32_t number_;
     MapChanges& changes_;
     glm::dvec3 kept_;
-    double greatest2_ = 0;
+    double greatest2_ = 0, thinning_m_ = 0;
     std::array<SidedProbe, kMostValence> probes_;
     std::array<glm::dvec3, kMostValence> area_vectors_;
     std::array<glm::dvec3, kMostValence> beyond_spoke_;  // points from the spoke before a face into it

@@ -49,6 +49,16 @@ class TriangleTree {
     // where the answer is yes, never yes where it is no.
     bool all_face(const glm::vec3& low, const glm::vec3& high, std::span<const glm::vec3> directions) const;
 
+    // What is looked at along a ray.
+    struct Ray {
+        glm::dvec3 from, direction;  // the latter of length 1
+        double slack_m = 0;          // what is nearer is passed over; what is missed by no more than that is hit
+        double below_m = 1e300;      // nothing farther is of interest
+    };
+    // The nearest triangle on a ray that it leaves through: that looks ahead. Of those alone of which part[] is `wanted`. Index
+    // kNobody and below_m where there is none; of several in one place the least.
+    Nearest ahead(const Ray& ray, std::span<const uint32_t> part, uint32_t wanted) const;
+
     const Triangle& triangle(uint32_t i) const { return triangles_[i]; }
     std::span<const Triangle> triangles() const { return triangles_; }
 

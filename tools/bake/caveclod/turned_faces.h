@@ -8,12 +8,12 @@
 
 namespace overlook::caveclod {
 
-// A drawn face is turned if it looks away from the source under it: at seven places spread over the face (its middle, and near
-// its corners and sides), the source nearest to each has a unit normal; the mean of the seven and the face's own normal make more
-// than 90 degrees. Where several of the source's triangles are nearest (within slack_m), as at an edge or where two sheets lie in
-// one place, the one that faces the drawn face best counts, so that no face of the source itself is turned. A face without area
-// is not turned. slack_m: what positions are rounded by. `guess`: a triangle of the source that may be near the face (kNoGuess:
-// none is known); the better it is, the sooner the same answer is found.
+// A drawn face is turned if it looks away from the source under it (of its own part: source_parts.h): at seven places spread over
+// the face (its middle, and near its corners and sides), the source nearest to each has a unit normal; the mean of the seven and
+// the face's own normal make more than 90 degrees. Where several of the source's triangles are nearest (within slack_m), as at an
+// edge or where two sheets lie in one place, the one that faces the drawn face best counts, so that no face of the source itself
+// is turned. A face without area is not turned. slack_m: what positions are rounded by. `guess`: a triangle of the source that
+// may be near the face (kNoGuess: none is known); the better it is, the sooner the same answer is found.
 constexpr uint32_t kNoGuess = 0xffffffff;
 bool is_turned(const TriangleTree& source, const Triangle& face, double slack_m, uint32_t guess = kNoGuess);
 

@@ -116,7 +116,7 @@ Family::Member Family::member_of(const Piece& piece, double distance_m) const {
     Member member;
     Shape leaves;
     if (piece.foliage.card_count() > 0) {
-        Foliage::Thinned thinned = piece.foliage.thinned(piece.foliage.count_within(distance_m), grows_ ? distance_m : 0);
+        Foliage::Thinned thinned = piece.foliage.thinned(piece.foliage.kept_within(distance_m), grows_ ? distance_m : 0);
         member.error_m = thinned.error_m, member.lost_m2 = thinned.lost_m2;
         leaves = std::move(thinned.shape);
     }
@@ -156,8 +156,7 @@ uint64_t Family::card_count() const {
 }
 uint64_t Family::card_triangle_count() const {
     uint64_t count = 0;
-    for (const Piece& piece : pieces_)
-        if (piece.foliage.card_count() > 0) count += piece.foliage.triangle_count(piece.foliage.card_count());
+    for (const Piece& piece : pieces_) count += piece.foliage.shape().faces.size();
     return count;
 }
 

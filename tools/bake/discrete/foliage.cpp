@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "formats/parallel.h"
@@ -14,7 +15,8 @@ namespace {
 using caveclod::Triangle;
 using caveclod::TriangleTree;
 
-constexpr double kCountFactor = 1.25;  // between counts that are measured ahead
+constexpr double kCountFactor = 1.3;         // between counts that are measured ahead
+constexpr uint64_t kMostMeasured = 1 << 26;  // cards times counts
 
 // Places on a curve through 2^21 cells a side (G. Morton, 1966).
 uint64_t spread(uint64_t v) {
@@ -100,20 +102,16 @@ void Foliage::rank() {
     }
     if (!playing.empty()) lost_first.push_back(playing[0]);
     order_.assign(lost_first.rbegin(), lost_first.rend());
-    triangles_before_ = {0};
-    for (uint32_t card : order_) triangles_before_.push_back(triangles_before_.back() + cards_[card].faces.size());
 }
 
-Shape Foliage::kept_shape(size_t kept, double grow_m) const {
+Shape Foliage::kept_shape(const std::vector<uint32_t>& kept, double grow_m) const {
     double all_m2 = 0, kept_m2 = 0;
-    for (size_t i = 0; i < order_.size(); ++i) {
-        all_m2 += cards_[order_[i]].area_m2;
-        if (i < kept) kept_m2 += cards_[order_[i]].area_m2;
-    }
+    for (const Card& card : cards_) all_m2 += card.area_m2;
+    for (uint32_t i : kept) kept_m2 += cards_[order_[i]].area_m2;
     double wanted = kept_m2 > 0 ? std::sqrt(all_m2 / kept_m2) : 1;
     std::vector<uint32_t> number(shape_.vertices.size(), ~0u);
     Shape drawn;
-    for (size_t i = 0; i < kept; ++i) {
+    for (uint32_t i : kept) {
         const Card& card = cards_[order_[i]];
         double grown = std::min(wanted, 1 + (card.radius_m > 0 ? grow_m / card.radius_m : 0));
         for (uint32_t f : card.faces) {
@@ -135,29 +133,35 @@ Shape Foliage::kept_shape(size_t kept, double grow_m) const {
 }
 
 // The distance to one triangle is convex, so over a lost face it is greatest at a corner; any triangle that stays will do.
-double Foliage::lost_distance_m(size_t kept, const Shape& drawn) const {
-    std::vector<Triangle> triangles = drawn.triangles();
-    TriangleTree tree(triangles);
-    double most_m = 0;
-    for (size_t i = kept; i < order_.size(); ++i) {
+std::vector<float> Foliage::distances_m(const std::vector<uint32_t>& kept, const Shape& drawn) const {
+    TriangleTree tree(drawn.triangles());
+    std::vector<float> distances_m(order_.size());
+    size_t next = 0;
+    for (uint32_t i = 0; i < order_.size(); ++i) {
+        if (next < kept.size() && kept[next] == i) {
+            ++next;
+            continue;
+        }
         const Card& card = cards_[order_[i]];
         const Triangle& near = tree.triangle(tree.nearest(card.middle_m).triangle);
         caveclod::TriangleProbe probe = caveclod::probe_of(near[0], near[1], near[2]);
+        double most_m = 0;
         for (uint32_t f : card.faces)
             for (uint32_t v : shape_.faces[f])
                 most_m = std::max(most_m, std::sqrt(caveclod::distance2_to_triangle(shape_.vertices[v].at_m, probe)));
+        distances_m[i] = rounded_up(most_m);
     }
-    return most_m;
+    return distances_m;
 }
 
 void Foliage::measure() {
-    for (double count = double(order_.size()); count >= 1; count /= kCountFactor)
-        if (distance_of_count_.empty() || distance_of_count_.back().first != size_t(count))
-            distance_of_count_.emplace_back(size_t(count), 0);
-    std::reverse(distance_of_count_.begin(), distance_of_count_.end());
-    parallel_ranges(distance_of_count_.size(), 1, [&](size_t i, size_t) {
-        auto& [count, distance_m] = distance_of_count_[i];
-        distance_m = lost_distance_m(count, kept_shape(count, 0));
+    double factor = std::max(kCountFactor, 1 + 16 * double(order_.size()) / double(kMostMeasured));
+    for (double count = double(order_.size()); count >= 1; count /= factor)
+        if (prefixes_.empty() || prefixes_.back().count != uint32_t(count)) prefixes_.push_back({uint32_t(count), {}});
+    parallel_ranges(prefixes_.size(), 1, [&](size_t p, size_t) {
+        std::vector<uint32_t> kept(prefixes_[p].count);
+        std::iota(kept.begin(), kept.end(), 0u);
+        prefixes_[p].distance_m = distances_m(kept, kept_shape(kept, 0));
     });
 }
 
@@ -167,13 +171,22 @@ Foliage::Foliage(Shape shape) : shape_(std::move(shape)) {
     measure();
 }
 
-size_t Foliage::count_within(double distance_m) const {
-    for (const auto& [count, lost_m] : distance_of_count_)
-        if (lost_m <= distance_m) return count;
-    return order_.size();
+// A prefix, and all cards that are too far from it: of all prefixes the one for which that is fewest.
+std::vector<uint32_t> Foliage::kept_within(double limit_m) const {
+    const Prefix* best = nullptr;
+    size_t fewest = 0;
+    for (const Prefix& prefix : prefixes_) {
+        auto far = size_t(std::count_if(prefix.distance_m.begin(), prefix.distance_m.end(),
+                                        [&](float distance_m) { return double(distance_m) > limit_m; }));
+        if (best == nullptr || prefix.count + far < fewest) best = &prefix, fewest = prefix.count + far;
+    }
+    std::vector<uint32_t> kept;
+    for (uint32_t i = 0; best != nullptr && i < order_.size(); ++i)
+        if (i < best->count || double(best->distance_m[i]) > limit_m) kept.push_back(i);
+    return kept;
 }
 
-Foliage::Thinned Foliage::thinned(size_t kept, double grow_m) const {
+Foliage::Thinned Foliage::thinned(const std::vector<uint32_t>& kept, double grow_m) const {
     Thinned thinned;
     if (order_.empty()) return thinned;
     thinned.shape = kept_shape(kept, grow_m);
@@ -181,7 +194,8 @@ Foliage::Thinned Foliage::thinned(size_t kept, double grow_m) const {
     std::vector<Triangle> as_they_are = kept_shape(kept, 0).triangles(), drawn = thinned.shape.triangles();
     for (size_t i = 0; i < drawn.size(); ++i)
         for (size_t c = 0; c < 3; ++c) drift_m = std::max(drift_m, glm::distance(as_they_are[i][c], drawn[i][c]));
-    thinned.error_m = std::max(drift_m, lost_distance_m(kept, thinned.shape));
+    std::vector<float> lost_m = distances_m(kept, thinned.shape);
+    thinned.error_m = std::max(drift_m, double(*std::max_element(lost_m.begin(), lost_m.end())));
     thinned.lost_m2 = std::max(0.0, shape_.area_m2() - thinned.shape.area_m2());
     return thinned;
 }

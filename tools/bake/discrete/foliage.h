@@ -12,22 +12,23 @@ namespace overlook::discrete {
 class Foliage {
   public:
     Foliage() = default;
-    // Each component of the shape is a card. O(F log F) and the trees of some sixty prefixes, in parallel.
+    // Each component of the shape is a card. O(F log F) for each of some forty prefixes of the order, in parallel.
     explicit Foliage(Shape shape);
 
-    size_t card_count() const { return order_.size(); }
-    // The least number of cards that bounds what is lost by distance_m, as far as measured ahead.
-    size_t count_within(double distance_m) const;
-    uint64_t triangle_count(size_t kept) const { return triangles_before_[kept]; }
+    size_t card_count() const { return cards_.size(); }
+    const Shape& shape() const { return shape_; }
+
+    // Cards by their places in the order of importance, ascending: few, and such that every point of each other card is within
+    // distance_m of one of them.
+    std::vector<uint32_t> kept_within(double distance_m) const;
 
     struct Thinned {
         Shape shape;
         double error_m = 0;  // bounds the two-sided distance to all cards, as they are
         double lost_m2 = 0;  // of the area, after what stays has grown
     };
-    // The first `kept` cards, each grown about its middle to make up for the area that is lost, by no more than grow_m.
-    Thinned thinned(size_t kept, double grow_m) const;
-    const Shape& shape() const { return shape_; }
+    // Those cards, each grown about its middle to make up for the area that is lost, by no more than grow_m.
+    Thinned thinned(const std::vector<uint32_t>& kept, double grow_m) const;
 
   private:
     struct Card {
@@ -38,14 +39,18 @@ class Foliage {
     void find_cards();
     void rank();
     void measure();
-    Shape kept_shape(size_t kept, double grow_m) const;
-    double lost_distance_m(size_t kept, const Shape& drawn) const;
+    Shape kept_shape(const std::vector<uint32_t>& kept, double grow_m) const;
+    std::vector<float> distances_m(const std::vector<uint32_t>& kept, const Shape& drawn) const;
 
     Shape shape_;
     std::vector<Card> cards_;
-    std::vector<uint32_t> order_;                               // the last is lost first
-    std::vector<uint64_t> triangles_before_;                    // [cards + 1]
-    std::vector<std::pair<size_t, double>> distance_of_count_;  // ascending counts, falling distances
+    std::vector<uint32_t> order_;  // the last is lost first
+    // Of so many cards, the first of the order: how far every card's farthest point is from them (0 of their own).
+    struct Prefix {
+        uint32_t count = 0;
+        std::vector<float> distance_m;  // [cards], in the order
+    };
+    std::vector<Prefix> prefixes_;
 };
 
 }  // namespace overlook::discrete

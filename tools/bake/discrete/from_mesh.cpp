@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/parallel.h"
+#include "tools/bake/caveclod/surface_distance.h"
 #include "tools/bake/discrete/family.h"
 
 namespace overlook::discrete {
@@ -36,6 +38,25 @@ std::vector<Family::Member> candidates_of(const Family& family, const LadderOpti
     return members;
 }
 
+// The hierarchies' bounds hold for every cut of them; of one that is at hand a measurement from above is often tighter.
+void tighten(std::vector<Family::Member>& members, uint32_t part_count) {
+    constexpr double kGap = 0.02, kFloorShare = 1e-5;
+    constexpr uint64_t kMostSteps = 1 << 18;
+    double floor_m = kFloorShare * radius_of(members[0].shape);
+    parallel_ranges(members.size(), 1, [&](size_t k, size_t) {
+        double most_m = 0;
+        for (uint32_t part = 0; part < part_count && k > 0; ++part) {
+            std::vector<caveclod::Triangle> finest = members[0].shape.triangles_of(part),
+                                            own = members[k].shape.triangles_of(part);
+            if (finest.empty() && own.empty()) continue;
+            caveclod::TriangleTree to_finest(finest), to_own(own);
+            most_m = std::max(most_m, caveclod::two_sided_distance(to_finest, to_own, kGap, floor_m, kMostSteps).most_m);
+        }
+        members[k].error_m = std::min(members[k].error_m, most_m);
+    });
+    for (size_t k = 1; k < members.size(); ++k) members[k].error_m = std::max(members[k].error_m, members[k - 1].error_m);
+}
+
 }  // namespace
 
 std::vector<Part> parts_of(const mesh::Motion& motion) {
@@ -53,11 +74,12 @@ std::vector<Part> parts_of(const mesh::Motion& motion) {
 
 Result<Chain> chain_from_mesh(const mesh::MeshFile& file, const MeshChainOptions& options, MeshChainReport& report,
                               const std::function<void(double)>& progress) {
-    constexpr double kBaked = 0.8;
+    constexpr double kBaked = 0.7, kTried = 0.9;
     auto family = Family::make(file, options, [&](double share) { progress(kBaked * share); });
     if (!family) return tl::unexpected(family.error());
     std::vector<Family::Member> members =
-        candidates_of(*family, options.ladder, [&](double share) { progress(kBaked + (1 - kBaked) * share); });
+        candidates_of(*family, options.ladder, [&](double share) { progress(kBaked + (kTried - kBaked) * share); });
+    tighten(members, uint32_t(file.motion.parts.size() + 1));
 
     std::vector<Candidate> candidates;
     for (const Family::Member& member : members) candidates.push_back({member.shape.faces.size(), member.error_m});

@@ -36,9 +36,10 @@ struct MeshChainReport {
 std::vector<Part> parts_of(const mesh::Motion& motion);
 
 // Bakes in memory. All levels come from one family: with a distance allowed, each part's solid pieces are cut from its hierarchy
-// within it, and each part's cards are lost and grow within it. The error of a level holds that distance as it came out, and
-// twice what laying it on 16 bits moved. A pure function of its arguments, for any number of threads. Fails as caveclod::bake
-// does, and with Exit::impossible for more than kMostParts parts.
+// within it, small ones left out where what stays is within it, and each part's cards are lost and grow within it. The error of a
+// level is the lesser of that distance as it came out and of a measurement from above (surface_distance.h), and holds twice what
+// laying it on 16 bits moved. A pure function of its arguments, for any number of threads. Fails as caveclod::bake does, and with
+// Exit::impossible for more than kMostParts parts.
 Result<Chain> chain_from_mesh(const mesh::MeshFile& file, const MeshChainOptions& options, MeshChainReport& report,
                               const std::function<void(double)>& progress);
 

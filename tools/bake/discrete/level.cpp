@@ -1,11 +1,9 @@
-// A shape onto a chain's grid. The seam to meshoptimizer.
-#include <meshoptimizer.h>
-
+// A shape onto a chain's grid.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "formats/caveclod_octahedral.h"
+#include "formats/value_codecs.h"
 #include "tools/bake/discrete/shape.h"
 
 namespace overlook::discrete {
@@ -33,28 +31,6 @@ Vertex vertex_of(const ShapeVertex& from, const Grid& grid, double& rounding_m) 
     return to;
 }
 
-// One vertex for all that are equal.
-void weld(Level& level) {
-    std::vector<uint32_t> remap(level.vertices.size());
-    size_t count = meshopt_generateVertexRemap(remap.data(), level.indices.data(), level.indices.size(), level.vertices.data(),
-                                               level.vertices.size(), sizeof(Vertex));
-    std::vector<Vertex> welded(count);
-    meshopt_remapVertexBuffer(welded.data(), level.vertices.data(), level.vertices.size(), sizeof(Vertex), remap.data());
-    meshopt_remapIndexBuffer(level.indices.data(), level.indices.data(), level.indices.size(), remap.data());
-    level.vertices = std::move(welded);
-}
-
-void order_for_caches(Level& level) {
-    for (const Draw& draw : level.draws) {
-        uint32_t* first = level.indices.data() + draw.first_index;
-        meshopt_optimizeVertexCache(first, first, draw.index_count, level.vertices.size());
-    }
-    std::vector<Vertex> fetched(level.vertices.size());
-    fetched.resize(meshopt_optimizeVertexFetch(fetched.data(), level.indices.data(), level.indices.size(), level.vertices.data(),
-                                               level.vertices.size(), sizeof(Vertex)));
-    level.vertices = std::move(fetched);
-}
-
 }  // namespace
 
 Level level_of(const Shape& shape, const Grid& grid, double& rounding_m) {
@@ -71,8 +47,9 @@ Level level_of(const Shape& shape, const Grid& grid, double& rounding_m) {
         level.draws.back().index_count += 3;
         level.indices.insert(level.indices.end(), shape.faces[f].begin(), shape.faces[f].end());
     }
-    weld(level);
-    order_for_caches(level);
+    std::vector<IndexRun> runs;
+    for (const Draw& draw : level.draws) runs.push_back({draw.first_index, draw.index_count});
+    level.vertices.resize(meshopt_order(std::as_writable_bytes(std::span(level.vertices)), sizeof(Vertex), level.indices, runs));
     return level;
 }
 

@@ -88,8 +88,8 @@ Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene
 Result<std::vector<Finding>> run_ridge(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_turning_back(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
-// S10: what is left of masts, in pictures of kSupersampling x kSupersampling samples a pixel. Fails with Exit::impossible where a
-// flight shows none.
+// S10: what is left of masts, in pictures of 64 samples a pixel, or 16 where those are too large. Fails with Exit::impossible
+// where a flight shows none.
 Result<std::vector<Finding>> run_masts(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on what is decided: S02, S11, S19.

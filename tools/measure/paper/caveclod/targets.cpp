@@ -84,7 +84,7 @@ Target active_memory(const Flown& flown) {
         by_terrain(flown, target("active state, bytes a triangle", "42", 24, false), active(Way::printed), active(Way::own),
                    "mean over a flyover, the worst of 1 to 4 cameras; 12 a node and 36 a polygon in the paper. ");
     if (!is.is_reached(1))
-        is.why = "16 bytes of indices and face and 5 to 6 of its handle are needed; beside them what glides (bytes a triangle: " +
+        is.why = "16 bytes of indices and face and 4.6 to 5.3 of its handle are needed; beside them what glides (bytes a triangle: " +
                  each(flown, [](const FlownSubject& s) { return glides_of(s); }) +
                  "), and the last page of each surface, which few triangles fill";
     return is;
