@@ -18,10 +18,8 @@ constexpr Member kSceneMembers[] = {
     {"error_px", Kind::number, false, 0.001, 10000},
 };
 constexpr Member kLayerMembers[] = {
-    {"asset", Kind::text, true},
-    {"transform", Kind::object},
-    {"method", Kind::text, true},
-    {"settings", Kind::object},
+    {"asset", Kind::text, true},  {"transform", Kind::object}, {"instances", Kind::array, false, 1, double(kMostInstances)},
+    {"method", Kind::text, true}, {"settings", Kind::object},
 };
 constexpr Member kTransformMembers[] = {
     {"translation_m", Kind::array, false, -1e9, 1e9, 3},
@@ -96,6 +94,12 @@ Transform read_transform(Form& form, const Node& node) {
     return transform;
 }
 
+void read_instances(Form& form, const Node& node, Layer& layer) {
+    if (node.value != nullptr && layer.method != "discrete")
+        form.fail(node, fmt::format("{} draws no instances; discrete does", layer.method));
+    for (const Node& item : form.items(node)) layer.instances.push_back(read_transform(form, item));
+}
+
 Layer read_layer(Form& form, const Node& node) {
     Layer layer;
     form.expect(node, kLayerMembers);
@@ -103,6 +107,7 @@ Layer read_layer(Form& form, const Node& node) {
     read_asset(form, form.member(node, "asset"), layer);
     read_method(form, form.member(node, "method"), layer);
     layer.transform = read_transform(form, form.member(node, "transform"));
+    read_instances(form, form.member(node, "instances"), layer);
     read_settings(form, form.member(node, "settings"), layer);
     return layer;
 }
@@ -113,12 +118,17 @@ std::string text_of(const Setting& setting) {
     return json::quoted(std::get<std::string>(setting));
 }
 
+std::string text_of(const Transform& transform) {
+    return fmt::format("{{\"translation_m\": [{}, {}, {}], \"rotation_z_deg\": {}, \"scale\": {}}}", transform.translation_m[0],
+                       transform.translation_m[1], transform.translation_m[2], transform.rotation_z_deg, transform.scale);
+}
+
 std::string text_of(const Layer& layer) {
-    const Transform& transform = layer.transform;
     std::string text = fmt::format("    {{\n      \"asset\": {},\n", json::quoted(layer.asset));
-    text += fmt::format("      \"transform\": {{\"translation_m\": [{}, {}, {}], \"rotation_z_deg\": {}, \"scale\": {}}},\n",
-                        transform.translation_m[0], transform.translation_m[1], transform.translation_m[2],
-                        transform.rotation_z_deg, transform.scale);
+    text += fmt::format("      \"transform\": {},\n", text_of(layer.transform));
+    for (size_t i = 0; i < layer.instances.size(); ++i)
+        text += fmt::format("{}        {}", i == 0 ? "      \"instances\": [\n" : ",\n", text_of(layer.instances[i]));
+    if (!layer.instances.empty()) text += "\n      ],\n";
     text += fmt::format("      \"method\": {},\n      \"settings\": {{",
                         json::quoted(layer.variant.empty() ? layer.method : layer.method + ":" + layer.variant));
     for (size_t i = 0; i < layer.settings.size(); ++i) {

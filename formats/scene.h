@@ -33,6 +33,9 @@ using Setting = std::variant<bool, double, std::string>;
 struct Layer {
     std::string asset;  // a baked file, relative to the scene's file
     Transform transform;
+    // Where the asset stands, each time whole, before `transform` is applied to all; of method discrete alone. None: once, as it
+    // is.
+    std::vector<Transform> instances;                       // at most kMostInstances
     std::string method;                                     // one of kMethods
     std::string variant;                                    // as in "lod-sprite:paper"; empty = the default one
     std::vector<std::pair<std::string, Setting>> settings;  // in the file's order; which there are, the method knows
@@ -53,6 +56,9 @@ struct Scene {
     CameraDefaults camera;
     double error_px = 1;  // the budget: nothing in the picture is displaced by more, 0.001..10000
 };
+
+// A document holds no more than json::kMostValues, some 140,000 instances with all that they may say.
+constexpr size_t kMostInstances = size_t(1) << 20;
 
 constexpr std::array<std::string_view, 5> kMethods = {"terrain", "lod-sprite", "caveclod", "discrete", "wang-ldi"};
 
@@ -81,6 +87,7 @@ struct Flight {
 //   "valley.scene.json:12:7: /layers/0/method: terain is no method; did you mean terrain?"
 //   "valley.scene.json:12:7: /layers/0/method: a variant is lower-case letters, digits and hyphens after the colon"
 //   "valley.scene.json:12:7: /layers/0/asset: is empty; name a baked file" (also: begins with /, or holds a zero byte)
+//   "valley.scene.json:12:7: /layers/0/instances: terrain draws no instances; discrete does"
 //   "a.flight.json:9:5: /keys/3/time_s: 2 is not after the key before, at 2"
 //   "a.flight.json:3:5: /interpolation: smoth is no interpolation; did you mean smooth?"
 //   "a.flight.json:2:3: /step_s: 1e-04 makes more than 10,000,000 frames of 1001 s; a longer step is wanted"

@@ -70,7 +70,7 @@ TEST_F(Measure, RefusesABadScene) {
     expect_refused(with_scene(bad), 3, {"a.ovl", "No such file"});
     write_text(bad, R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "terrain"},
                                                  {"asset": "a.ovl", "method": "terrain"}]})");
-    expect_refused(with_scene(bad), 5, {bad, "has 2 layers", "one terrain or mesh"});
+    expect_refused(with_scene(bad), 5, {bad, "has 2 layers", "one terrain, mesh or chain of levels"});
 }
 
 TEST_F(Measure, RefusesABadFlight) {

@@ -119,6 +119,48 @@ TEST(Scene, NamesThePlaceOfEveryMistake) {
     EXPECT_EQ(scene_error(R"({"version":1,"layers":[]})"), "s.json:1:23: /layers: has 0 items; 1 to 64 are wanted");
 }
 
+const std::string kForest = R"({"version": 1, "layers": [
+  {"asset": "tree.ovl", "method": "discrete:switch", "transform": {"scale": 3}, "instances": [
+    {"translation_m": [1, 2, -3], "rotation_z_deg": 90, "scale": 0.5},
+    {}]}]})";
+
+TEST(Scene, HoldsInstancesOfItsAsset) {
+    Result<Scene> scene = parse_scene(kForest, "s.json");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::vector<Transform>& instances = scene->layers[0].instances;
+    ASSERT_EQ(instances.size(), 2u);
+    EXPECT_EQ(instances[0].translation_m, (std::array<double, 3>{1, 2, -3}));
+    EXPECT_EQ(instances[0].rotation_z_deg, 90);
+    EXPECT_EQ(instances[0].scale, 0.5);
+    EXPECT_EQ(instances[1].scale, Transform{}.scale);
+    EXPECT_EQ(scene->layers[0].transform.scale, 3);
+
+    std::string text = json_from_scene(*scene);
+    Result<Scene> again = parse_scene(text, "s.json");
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(json_from_scene(*again), text);
+    ASSERT_EQ(again->layers[0].instances.size(), 2u);
+    EXPECT_EQ(again->layers[0].instances[0].translation_m, instances[0].translation_m);
+}
+
+TEST(Scene, NamesThePlaceOfEveryMistakeInItsInstances) {
+    struct Case {
+        std::string from, to, message;
+    };
+    for (const Case& c : std::initializer_list<Case>{
+             {"discrete:switch", "caveclod", "s.json:2:87: /layers/0/instances: caveclod draws no instances; discrete does"},
+             {"-3]", "\"x\"]", "s.json:3:30: /layers/0/instances/0/translation_m/2: is text; a number is wanted"},
+             {"0.5", "-1", "s.json:3:66: /layers/0/instances/0/scale: -1 is outside 1e-06..1000000"},
+             {"{}", "7", "s.json:4:5: /layers/0/instances/1: is a number; an object is wanted"},
+             {"{}", "{\"scal\": 2}", "s.json:4:6: /layers/0/instances/1/scal: is not known here; did you mean scale?"},
+         }) {
+        EXPECT_EQ(scene_error(replaced(kForest, c.from, c.to)), c.message);
+    }
+    EXPECT_EQ(scene_error(R"({"version":1,"layers":[{"asset":"a","method":"discrete","instances":[]}]})"),
+              "s.json:1:69: /layers/0/instances: has 0 items; 1 to 1048576 are wanted");
+    for (size_t size = 0; size < kForest.size(); ++size) EXPECT_NE(scene_error(kForest.substr(0, size)), "(read)") << size;
+}
+
 TEST(Flight, NamesThePlaceOfEveryMistake) {
     struct Case {
         std::string from, to, message;

@@ -179,7 +179,7 @@ Result<std::vector<std::string>> make_object(const std::string& name, const std:
     bool is_vase = name == "vase";
     mesh::Mesh mesh = is_vase ? vase_mesh() : masts_mesh();
     scene::Scene scene;
-    scene.layers.push_back({name + ".ovl", {}, "caveclod", "", {}});
+    scene.layers.push_back({name + ".ovl", {}, {}, "caveclod", "", {}});
     std::vector<std::string> paths;
     for (const auto& [file, text] :
          {std::pair(name + ".obj", obj_text_of(mesh, name)), std::pair(name + ".mtl", mtl_text_of(mesh)),

@@ -54,7 +54,7 @@ Result<std::vector<std::string>> make_slopes(const std::string& folder) {
     placement.cell_m = kSlopesCell_m;
     std::vector<std::byte> tiff = geotiff_bytes(samples, kSlopesSide, kSlopesSide, placement, std::nullopt);
     scene::Scene scene;
-    scene.layers.push_back({"slopes.ovl", {}, "terrain", "", {}});
+    scene.layers.push_back({"slopes.ovl", {}, {}, "terrain", "", {}});
     std::string text = scene::json_from_scene(scene);
 
     auto path_of = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };

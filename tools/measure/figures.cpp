@@ -23,7 +23,7 @@ std::optional<double> of_g(R record, Value value) {
     return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
 }
 
-constexpr std::array<Figure, 33> kFigures = {{
+constexpr std::array<Figure, 34> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -58,6 +58,8 @@ constexpr std::array<Figure, 33> kFigures = {{
     {"key_pixels", "of keyframes, drawn besides the picture's own", [](R r) -> O { return double(r.counters.key_pixel_count); },
      true},
     {"operations", "splits and collapses, of all cameras", [](R r) -> O { return double(r.counters.operation_count); }, true},
+    {"transitions", "instances on their way from level to level", [](R r) -> O { return double(r.counters.transition_count); },
+     true},
     {"camera_bytes", "what cameras keep in main memory beside what they share",
      [](R r) -> O { return double(r.counters.camera_bytes); }, true},
     {"wrong_corners", "corners of triangles drawn with the attributes of another face",

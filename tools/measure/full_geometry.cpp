@@ -1,6 +1,7 @@
 #include "tools/measure/full_geometry.h"
 
 #include "runtime/caveclod/static_levels.h"
+#include "runtime/discrete/director.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -23,6 +24,10 @@ class Full : public Method {
 }  // namespace
 
 FullGeometry::FullGeometry(World& world) : world_(&world) {
+    if (world.chain) {
+        lists_ = std::make_unique<discrete::ListBuffers>();
+        return;
+    }
     if (!world.mesh) {
         cut_ = full_cut(world);
         return;
@@ -31,7 +36,25 @@ FullGeometry::FullGeometry(World& world) : world_(&world) {
     buffers_->take(caveclod::faces_within(*world.mesh->mesh, kEverything_m).by_surface);
 }
 
+Counters FullGeometry::draw_chain(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
+    const ChainWorld& world = *world_->chain;
+    discrete::FrameList frame = discrete::finest_frame(world.facts, world.placements, camera);
+    discrete::DrawList list =
+        discrete::draw_list(world.drawing->layout(), *world.chain, frame, world.placements, camera, world_->time_s);
+    Counters counters;
+    counters.uploaded_bytes = lists_->fill(list);
+    discrete::DrawOptions look;
+    look.part = part;
+    counters.draw_call_count = world.drawing->draw(target, *lists_, list, look);
+    counters.triangle_count = frame.triangle_count;
+    counters.vertex_reference_count = 3 * counters.triangle_count;
+    counters.resident_bytes = world_->resident_bytes;
+    counters.tested_count = frame.tested_count;
+    return counters;
+}
+
 Counters FullGeometry::draw(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
+    if (world_->chain) return draw_chain(target, camera, part);
     if (!world_->mesh) {
         terrain::DrawOptions look = world_->look;
         look.part = part;

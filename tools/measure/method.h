@@ -27,6 +27,7 @@ struct Counters {
     uint64_t key_triangle_count = 0;  // of the triangles, those drawn into keyframes
     uint64_t key_pixel_count = 0;     // of keyframes, drawn besides the picture's own
     uint64_t operation_count = 0;     // splits and collapses, of all cameras
+    uint64_t transition_count = 0;    // instances on their way from level to level
     uint64_t camera_bytes = 0;        // what cameras keep in main memory beside what they share
     uint64_t wrong_corner_count = 0;  // of triangles drawn with the attributes of another face
     double predicted_error_px = 0;

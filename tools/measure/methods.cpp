@@ -11,6 +11,7 @@
 #include "runtime/caveclod/settings.h"
 #include "runtime/lod_sprite/draw_paper_frames.h"
 #include "runtime/terrain/refine.h"
+#include "tools/measure/discrete_method.h"
 #include "tools/measure/full_geometry.h"
 #include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
@@ -28,7 +29,6 @@ constexpr SettingKind kTriangles{"triangles", 0, 1e9, 0, true, true};
 constexpr std::array<SettingKind, 4> kTerrainSettings = {kErrorPx, kSamples, kMorph, kTriangles};
 constexpr std::array<SettingKind, 3> kHardSettings = {kErrorPx, kSamples, kTriangles};
 constexpr std::array<SettingKind, 3> kTileSettings = {kErrorPx, kSamples, kMorph};
-constexpr std::array<SettingKind, 2> kDiscreteSettings = {kErrorPx, kSamples};
 constexpr std::array<SettingKind, 1> kFullSettings = {kSamples};
 // What runtime says of a method, and the samples of the pictures.
 std::vector<SettingKind> with_samples(std::span<const SettingKind> settings) {
@@ -43,23 +43,31 @@ std::vector<SettingKind> with_streaming(std::span<const SettingKind> settings) {
     return all;
 }
 
-const std::array<MethodKind, 11>& kinds() {
+std::vector<MethodKind> make_kinds() {
     static const std::vector<SettingKind> kSprite = with_samples(lod_sprite::setting_kinds());
     static const std::vector<SettingKind> kSpritePaper = with_samples(lod_sprite::paper::setting_kinds());
     static const std::vector<SettingKind> kOwn = with_samples(caveclod::setting_kinds(caveclod::Variant::own)),
                                           kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper)),
                                           kBlocks = with_streaming(kOwn), kTiles = with_streaming(kTileSettings);
-    static const std::array<MethodKind, 11> kKinds = {MethodKind{"terrain", "", kTerrainSettings},
-                                                      MethodKind{"terrain", "hard", kHardSettings},
-                                                      MethodKind{"terrain", "streamed", kTiles},
-                                                      MethodKind{"lod-sprite", "", kSprite},
-                                                      MethodKind{"lod-sprite", "paper", kSpritePaper},
-                                                      MethodKind{"caveclod", "", kOwn},
-                                                      MethodKind{"caveclod", "paper", kOthers},
-                                                      MethodKind{"caveclod", "shared", kOthers},
-                                                      MethodKind{"caveclod", "streamed", kBlocks},
-                                                      MethodKind{"discrete", "", kDiscreteSettings},
-                                                      MethodKind{"full", "", kFullSettings}};
+    std::vector<MethodKind> kinds = {{"terrain", "", kTerrainSettings},
+                                     {"terrain", "hard", kHardSettings},
+                                     {"terrain", "streamed", kTiles},
+                                     {"lod-sprite", "", kSprite},
+                                     {"lod-sprite", "paper", kSpritePaper},
+                                     {"caveclod", "", kOwn},
+                                     {"caveclod", "paper", kOthers},
+                                     {"caveclod", "shared", kOthers},
+                                     {"caveclod", "streamed", kBlocks}};
+    static std::vector<std::vector<SettingKind>> levels;
+    for (const DiscreteVariant& one : discrete_variants()) levels.push_back(with_samples(discrete::setting_kinds(one.variant)));
+    kinds.push_back({"discrete", "", levels.front()});
+    for (size_t i = 0; i < levels.size(); ++i) kinds.push_back({"discrete", discrete_variants()[i].name, levels[i]});
+    kinds.push_back({"full", "", kFullSettings});
+    return kinds;
+}
+
+const std::vector<MethodKind>& kinds() {
+    static const std::vector<MethodKind> kKinds = make_kinds();
     return kKinds;
 }
 
@@ -188,15 +196,20 @@ Result<std::vector<Asked>> swept(const std::vector<Asked>& methods, std::string_
     return all;
 }
 
-// "terrain:hard".
-std::string named(const MethodSpec& spec) {
-    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
-}
-
 }  // namespace
 
 std::span<const MethodKind> method_kinds() {
     return kinds();
+}
+
+const MethodKind* kind_of(const MethodSpec& spec) {
+    auto kind = std::find_if(kinds().begin(), kinds().end(),
+                             [&](const MethodKind& one) { return one.name == spec.name && one.variant == spec.variant; });
+    return kind == kinds().end() ? nullptr : &*kind;
+}
+
+std::string named(const MethodSpec& spec) {
+    return spec.variant.empty() ? spec.name : spec.name + ":" + spec.variant;
 }
 
 std::string family_of(const MethodSpec& spec) {
@@ -205,10 +218,9 @@ std::string family_of(const MethodSpec& spec) {
 
 std::string label_of(const MethodSpec& spec) {
     std::string label = named(spec);
-    auto kind = std::find_if(kinds().begin(), kinds().end(),
-                             [&](const MethodKind& one) { return one.name == spec.name && one.variant == spec.variant; });
+    const MethodKind* kind = kind_of(spec);
     for (const auto& [name, value] : spec.settings) {
-        const SettingKind* known = kind == kinds().end() ? nullptr : &kind->settings[place_of(*kind, name)];
+        const SettingKind* known = kind == nullptr ? nullptr : &kind->settings[place_of(*kind, name)];
         bool goes_without_saying = known != nullptr && known->is_seldom && known->otherwise == value;
         if (!goes_without_saying)
             label += fmt::format("@{}={}", name, known != nullptr ? text_of(*known, value) : fmt::format("{}", value));
@@ -266,33 +278,13 @@ double morph_of(const MethodSpec& spec) {
     return spec.variant == "hard" ? 0 : setting(spec, "morph");
 }
 
-bool draws_meshes(const MethodSpec& spec) {
-    return !draws_terrains(spec) || is_floor(spec) || (spec.name == "lod-sprite" && spec.variant.empty());
-}
-
-bool draws_terrains(const MethodSpec& spec) {
-    return spec.name != "caveclod" && spec.name != "discrete";
-}
-
-Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) {
-    for (const MethodSpec& spec : specs) {
-        if (world.is_mesh() ? draws_meshes(spec) : draws_terrains(spec)) {
-            if (!is_streamed(spec)) continue;
-            if (Result<void> streams = check_streams(spec, world); !streams) return streams;
-            continue;
-        }
-        return impossible("--method {}: it draws {}, and {} holds a {}", named(spec), world.is_mesh() ? "terrains" : "meshes",
-                          world.name, world.is_mesh() ? "mesh" : "terrain");
-    }
-    return {};
-}
-
 std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (is_floor(spec)) return make_full_method(world);
     if (is_streamed(spec)) return make_streamed_method(world, spec);
     if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     if (spec.name == "caveclod") return make_caveclod_method(world, spec);
+    if (world.is_chain()) return make_chain_method(world, spec);
     if (spec.name == "discrete") return make_discrete_method(world, setting(spec, "error-px"));
     assert(spec.name == "terrain");
     return make_terrain_method(world, {budget_of(spec), setting(spec, "error-px"), false}, morph_of(spec));

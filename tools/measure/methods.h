@@ -18,7 +18,9 @@ struct MethodKind {
     std::string_view name, variant;  // "" = the default one
     std::span<const SettingKind> settings;
 };
-std::span<const MethodKind> method_kinds();  // the default variant of each method before its others
+std::span<const MethodKind> method_kinds();         // the default variant of each method before its others
+const MethodKind* kind_of(const MethodSpec& spec);  // null of none
+std::string named(const MethodSpec& spec);          // "terrain:hard"
 
 // Reads "NAME[:variant][@setting=value]...". Fails with Exit::bad_command:
 //   "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, caveclod, discrete, full)"
@@ -47,8 +49,10 @@ double budget_of(const MethodSpec& spec);
 
 bool draws_terrains(const MethodSpec& spec);
 bool draws_meshes(const MethodSpec& spec);
+bool draws_chains(const MethodSpec& spec);
 // Fails with Exit::impossible:
 //   "--method caveclod: it draws meshes, and valley.json holds a terrain"
+//   "--method discrete: search is of chains of levels, and duck.ovl holds a mesh"
 // and as check_streams, of those that stream.
 Result<void> check_draws(std::span<const MethodSpec> specs, const World& world);
 

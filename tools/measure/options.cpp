@@ -79,7 +79,10 @@ void add_options(CLI::App& app, Options& options) {
            "(error-px, samples, triangles, "
            "operations, cameras that refine at once, glide-s, silhouette-px and others); caveclod:paper, as published, and "
            "caveclod:shared, one refinement for all cameras (error-px, cameras, samples); discrete, levels for the whole mesh "
-           "(error-px, samples); of both: full (samples)")
+           "(error-px, samples); of chains of levels: discrete or discrete:fsi, by turns (error-px, "
+           "by=error|size|distance|importance, "
+           "fade-s, samples; and its remedies, each to be switched off), discrete:fsi-paper, as published, discrete:switch, "
+           "discrete:blend, discrete:dither and discrete:late; of all: full (samples)")
         ->type_name("METHOD")
         ->required()
         ->expected(1)

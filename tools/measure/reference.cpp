@@ -7,6 +7,7 @@
 
 #include "formats/mapped_file.h"
 #include "runtime/caveclod/draw_shaders.h"
+#include "runtime/discrete/draw_shaders.h"
 #include "runtime/gl/surface_shaders.h"
 #include "runtime/terrain/draw_shaders.h"
 #include "tools/measure/capture.h"
@@ -19,12 +20,16 @@ std::string hash_of(const std::string& text) {
     return content_hash(std::as_bytes(std::span(text)));
 }
 
-std::string shaders_hash(bool is_mesh) {
+std::string shaders_hash(const World& world) {
     namespace mesh = caveclod::shaders;
     namespace ground = terrain::shaders;
     std::string shared = std::string(gl::shaders::kEncoding) + gl::shaders::kUnmoved + gl::shaders::kShadedMain +
                          gl::shaders::kBackgroundVertex + gl::shaders::kBackgroundDirection;
-    if (is_mesh) {
+    if (world.is_chain()) {
+        return hash_of(shared + discrete::shaders::kItems + discrete::shaders::kVertex + discrete::shaders::kFragment +
+                       discrete::shaders::kOnePictureMain);
+    }
+    if (world.is_mesh()) {
         return hash_of(shared + mesh::kMeshVertexInputs + mesh::kMeshVertexMain + mesh::kMeshFragment +
                        mesh::kBackgroundFragment);
     }
@@ -84,7 +89,7 @@ Result<ReferenceRenderer> ReferenceRenderer::make(World& world, const gl::Render
     made.cache_folder_ = std::move(cache_folder);
     made.identity_ = fmt::format("reference {} x {} in parts of {} x {}\n{}\n{}\n{}\n{}\n{}{}", kSupersampling, kSupersampling,
                                  part_width_px, part_height_px, world.content_hash, renderer.name, renderer.version,
-                                 shaders_hash(world.is_mesh()), bits_of(world.look.haze), bits_of(double(world.look.anisotropy)));
+                                 shaders_hash(world), bits_of(world.look.haze), bits_of(double(world.look.anisotropy)));
     return made;
 }
 
@@ -121,7 +126,8 @@ ImageRgb8 ReferenceRenderer::part_of(const view::Camera& large_camera, const vie
 
 Result<Frame> ReferenceRenderer::frame(const view::Camera& camera) {
     if (cache_folder_.empty()) return drawn(camera);
-    std::string path = fmt::format("{}/{}.frame", cache_folder_, hash_of(identity_ + bits_of(camera)));
+    std::string moment = world_->is_chain() ? bits_of(world_->time_s) : "";
+    std::string path = fmt::format("{}/{}.frame", cache_folder_, hash_of(identity_ + bits_of(camera) + moment));
     KeptFrame kept = read_kept(path, camera);
     if (kept.frame) {
         ++kept_count_;

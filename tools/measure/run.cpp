@@ -32,6 +32,7 @@ class Field {
     static Result<Field> make(World& world, const Course& course) {
         Field field;
         world.step_s = course.step_s;
+        field.world_ = &world;
         const view::Camera& camera = course.cameras.front();
         if (Result<void> added = field.add_target(camera, 1); !added) return tl::unexpected(added.error());
         for (const MethodSpec& spec : course.specs) {
@@ -51,6 +52,7 @@ class Field {
         Running& running = runs[run];
         FrameRecord record;
         record.frame = frame;
+        world_->time_s = double(lead_frames_ + frame) * world_->step_s;
         gl::Timer deciding;
         running.method->decide(camera, lead_frames_ + frame);
         record.decide_ms = deciding.elapsed_ms();
@@ -108,6 +110,7 @@ class Field {
         glFinish();
     }
 
+    World* world_ = nullptr;
     uint32_t lead_frames_ = 0;
 };
 
@@ -129,7 +132,7 @@ void take_e(const Frame& test, const Frame& reference, FrameRecord& record, Wors
 class Judge {
   public:
     Judge(World& world, ReferenceRenderer& reference, const Course& course, TimeSpent& spent)
-        : truth_(world), reference_(reference), course_(course), spent_(spent) {}
+        : world_(world), truth_(world), reference_(reference), course_(course), spent_(spent) {}
 
     // Once a frame, when all runs have drawn it and are captured.
     Result<void> judge(Field& field, uint32_t frame) {
@@ -168,8 +171,12 @@ class Judge {
   private:
     static constexpr uint32_t kFlipStep = 10;
 
+    // What moves by itself is where it is then.
+    void go_to(uint32_t frame) { world_.time_s = double(course_.lead.size() + frame) * course_.step_s; }
+
     Result<Frame> referred(uint32_t frame) {
         gl::Timer referring;
+        go_to(frame);
         Result<Frame> drawn = reference_.frame(course_.cameras[frame]);
         spent_.references_ms += referring.elapsed_ms();
         return drawn;
@@ -177,6 +184,7 @@ class Judge {
 
     Result<void> judge_one(RunResult& result, const Frame& test, const Frame& truth, uint32_t frame) {
         FrameRecord& record = result.frames[frame];
+        go_to(frame);
         auto around = [&](uint32_t margin_px) { return reference_.surroundings(course_.cameras[frame], margin_px); };
         return judge_picture(test, truth, promised_px(result.spec, record.counters), around, record.numbers);
     }
@@ -207,6 +215,7 @@ class Judge {
         return {};
     }
 
+    World& world_;
     ReuseTruth truth_;
     ReferenceRenderer& reference_;
     const Course& course_;

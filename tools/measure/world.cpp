@@ -1,6 +1,7 @@
 #include "tools/measure/world.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "formats/container.h"
 #include "formats/mapped_file.h"
@@ -20,11 +21,11 @@ uint64_t bytes_on_card(const terrain::Terrain& terrain) {
 Result<scene::Scene> scene_of(const std::string& path) {
     if (!path.ends_with(".ovl")) return scene::read_scene(path);
     scene::Scene scene;
-    scene.layers.push_back({path.substr(path.rfind('/') + 1), {}, "", "", {}});
+    scene.layers.emplace_back().asset = path.substr(path.rfind('/') + 1);
     return scene;
 }
 
-constexpr const char* kOnly = "measure draws scenes of one terrain or mesh";
+constexpr const char* kOnly = "measure draws scenes of one terrain, mesh or chain of levels";
 
 // These say the near plane's distance, metres, so near that nothing is cut off that can be seen.
 Result<double> read_terrain(const container::Reader& file, World& world) {
@@ -51,6 +52,24 @@ Result<double> read_mesh(const container::Reader& file, World& world) {
     return std::min(0.5, kNearShare * glm::distance(made.mesh->lowest_m(), made.mesh->highest_m()) / 2);
 }
 
+Result<double> read_chain(const container::Reader& file, const scene::Layer& layer, World& world) {
+    constexpr double kNearShare = 1e-5;  // of the least thing's size, likewise
+    Result<discrete::Chain> chain = discrete::read(file);
+    if (!chain) return tl::unexpected(chain.error());
+    const ChainWorld& made = world.chain.emplace(chain_world(std::move(*chain), layer.instances));
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const discrete::Placement& one : made.placements) least_m = std::min(least_m, one.scale * made.chain->radius_m);
+    return std::min(0.5, kNearShare * std::max(least_m, 1e-6));
+}
+
+// By the kind of the file.
+Result<double> read_asset(const container::Reader& file, const std::string& path, const scene::Layer& layer, World& world) {
+    if (file.kind() == discrete::kKind) return read_chain(file, layer, world);
+    if (!layer.instances.empty())
+        return bad_input("{}: /layers/0/instances: {} is no chain of levels", path, file.name());
+    return file.kind() == caveclod::kKind ? read_mesh(file, world) : read_terrain(file, world);
+}
+
 }  // namespace
 
 Result<World> read_world(const std::string& path) {
@@ -69,7 +88,7 @@ Result<World> read_world(const std::string& path) {
     world.asset_path = asset;
     std::string hashes = content_hash(scene_file->bytes()) + content_hash(asset_file->bytes());
     world.content_hash = content_hash(std::as_bytes(std::span(hashes)));
-    Result<double> near_m = file->kind() == caveclod::kKind ? read_mesh(*file, world) : read_terrain(*file, world);
+    Result<double> near_m = read_asset(*file, path, scene->layers[0], world);
     if (!near_m) return tl::unexpected(near_m.error());
     world.look.haze = scene->light.haze;
     // Mesa 22.3's llvmpipe loops for seconds, or for ever, on some triangles with anisotropic filtering.
@@ -87,10 +106,26 @@ const MeshHonesty& MeshWorld::honesty() {
 
 view::Camera World::local(const view::Camera& camera) const {
     view::Camera own = view::camera_into(transform, camera);
-    return is_mesh() ? own : terrain::with_clear_near_plane(*terrain, own);
+    return is_mesh() || is_chain() ? own : terrain::with_clear_near_plane(*terrain, own);
+}
+
+ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances) {
+    ChainWorld made;
+    made.chain = std::make_unique<discrete::Chain>(std::move(chain));
+    made.facts = discrete::facts_of(*made.chain);
+    for (const scene::Transform& instance : instances) made.placements.push_back(discrete::placement_of(instance));
+    if (instances.empty()) made.placements.emplace_back();
+    return made;
 }
 
 Result<void> upload(World& world) {
+    if (world.is_chain()) {
+        Result<discrete::Drawing> drawing = discrete::Drawing::make(*world.chain->chain);
+        if (!drawing) return tl::unexpected(drawing.error());
+        world.resident_bytes = drawing->bytes();
+        world.chain->drawing.emplace(std::move(*drawing));
+        return {};
+    }
     if (world.is_mesh()) {
         Result<caveclod::Drawing> drawing = caveclod::Drawing::make(*world.mesh->mesh);
         if (!drawing) return tl::unexpected(drawing.error());

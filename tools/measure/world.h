@@ -3,12 +3,17 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "formats/caveclod.h"
 #include "formats/scene.h"
 #include "runtime/caveclod/draw.h"
 #include "runtime/caveclod/mesh.h"
+#include "runtime/discrete/draw.h"
+#include "runtime/discrete/select.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
 #include "tools/measure/honesty/mesh_honesty.h"
@@ -28,7 +33,15 @@ struct MeshWorld {
     std::unique_ptr<MeshHonesty> honesty_;
 };
 
-// Holds a terrain or a mesh. Must go before the context that it was uploaded to.
+// A chain of levels and where it stands.
+struct ChainWorld {
+    std::unique_ptr<discrete::Chain> chain;
+    std::optional<discrete::Drawing> drawing;
+    std::vector<discrete::Placement> placements;  // at least one
+    discrete::ChainFacts facts;
+};
+
+// Holds a terrain, a mesh or a chain of levels. Must go before the context that it was uploaded to.
 struct World {
     std::string name;          // of the scene's file, without its folder
     std::string content_hash;  // of the scene and of everything it names
@@ -36,22 +49,31 @@ struct World {
     std::unique_ptr<terrain::Terrain> terrain;
     std::optional<terrain::Refiner> refiner;
     std::optional<terrain::Drawing> drawing;
-    terrain::DrawOptions look;    // the same for every method and the reference
-    std::optional<MeshWorld> mesh;  // then there is no terrain
-    uint64_t resident_bytes = 0;  // on the card without what changes from frame to frame
-    scene::Transform transform;   // from the thing's own frame into the scene's
-    view::Camera base;            // what a flight does not say: near plane, field of view
-    double step_s = 1.0 / 60;     // of the logical clock, from frame to frame
+    terrain::DrawOptions look;        // the same for every method and the reference
+    std::optional<MeshWorld> mesh;    // then there is no terrain
+    std::optional<ChainWorld> chain;  // then there is neither
+    uint64_t resident_bytes = 0;      // on the card without what changes from frame to frame
+    scene::Transform transform;       // from the thing's own frame into the scene's
+    view::Camera base;                // what a flight does not say: near plane, field of view
+    double step_s = 1.0 / 60;         // of the logical clock, from frame to frame
+    double time_s = 0;                // of that clock, of the frame that is drawn: where what moves by itself is
 
     bool is_mesh() const { return mesh.has_value(); }
+    bool is_chain() const { return chain.has_value(); }
+    std::string_view thing() const { return is_chain() ? "chain of levels" : is_mesh() ? "mesh" : "terrain"; }
     // A camera of the scene in the thing's own frame, its near plane where it cuts nothing off.
     view::Camera local(const view::Camera& camera) const;
 };
 
-// Reads a scene (.json), or a baked terrain or mesh by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
-// scene::read_scene, terrain::read and caveclod::read; and with Exit::impossible:
-//   "a.scene.json: has 2 layers; measure draws scenes of one terrain or mesh"
-//   "a.ovl: a file of kind WLDI cannot be measured; measure draws scenes of one terrain or mesh"
+// A chain that stands where instances say; none: once, as it is.
+ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances);
+
+// Reads a scene (.json), or a baked terrain, mesh or chain by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
+// scene::read_scene, terrain::read, caveclod::read and discrete::read, and
+//   "a.scene.json: /layers/0/instances: duck.ovl is no chain of levels"
+// and with Exit::impossible:
+//   "a.scene.json: has 2 layers; measure draws scenes of one terrain, mesh or chain of levels"
+//   "a.ovl: a file of kind WLDI cannot be measured; measure draws scenes of one terrain, mesh or chain of levels"
 Result<World> read_world(const std::string& path);
 
 // Puts it on the graphics card, once; needs a current context. Fails with Exit::impossible.

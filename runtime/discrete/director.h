@@ -1,0 +1,102 @@
+// Decides, frame by frame, which levels of which instances are drawn, and how.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "runtime/discrete/select.h"
+#include "runtime/discrete/settings.h"
+#include "runtime/discrete/transition.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::discrete {
+
+// How an item is drawn.
+enum class Show : uint32_t {
+    whole,
+    visible,       // where the visibility of its change of level is at most `share`
+    dithered_in,   // on the share of the pixels that a screen door opens first
+    dithered_out,  // on the others
+    translucent,   // mixed over what is behind, with this share
+};
+
+// One level of one instance.
+struct Item {
+    uint32_t instance = 0, level = 0;
+    Show show = Show::whole;
+    double share = 1;     // 0..1
+    uint32_t change = 0;  // whose visibility: that of the change between this level and the next coarser
+    double grain = 1;     // times as wide as the visibility's own
+
+    bool operator==(const Item&) const = default;
+};
+
+// An instance on its way between two levels, in view.
+struct Fading {
+    uint32_t instance = 0;
+    Transition transition;
+    uint32_t drawn_level = 0;  // by this frame; of methods that draw by turns
+};
+
+// What one frame draws and what it did.
+struct FrameList {
+    std::vector<Item> items;        // by level, then by instance: those of a level stand one after the other
+    std::vector<Item> translucent;  // over them, back to front
+    std::vector<Fading> fading;     // by instance
+    uint64_t triangle_count = 0;
+    uint64_t tested_count = 0;   // instances looked at
+    uint64_t in_view_count = 0;  // of them
+    uint64_t begun_count = 0;    // changes of level begun, turned or done at once, in view
+    double error_px = 0;         // the greatest bound of what is drawn and not only hidden, against level 0
+};
+
+// All that is in view at its finest level: what there is to compare with.
+FrameList finest_frame(const ChainFacts& facts, std::span<const Placement> placements, const view::Camera& camera);
+
+// The state of all instances from frame to frame. Same frames, same lists.
+class Director {
+  public:
+    Director(ChainFacts facts, std::span<const Placement> placements, const FrameOptions& options);
+
+    // They stand elsewhere from the next frame on. placements: as many as before.
+    void place(std::span<const Placement> placements);
+    // One frame. Before the first, and out of view, levels are as wanted at once. dt_s >= 0: since the last frame.
+    void decide(const view::Camera& camera, double dt_s);
+    // Keeps levels and transitions; if the variant does not fade they end.
+    void change(const FrameOptions& options);
+
+    const FrameList& frame() const { return frame_; }
+    const FrameOptions& options() const { return options_; }
+    const ChainFacts& facts() const { return facts_; }
+    const std::vector<Placement>& placements() const { return placements_; }
+    const Transition& transition(uint32_t instance) const { return states_[instance].transition; }
+    // How wide the visibility's grain is, in metres at scale 1: the period over the picture's width. 0: unknown.
+    void set_grain_m(std::vector<double> of_change) { grain_m_ = std::move(of_change); }
+    size_t bytes() const { return states_.size() * sizeof(State) + placements_.size() * sizeof(Placement); }
+
+  private:
+    struct State {
+        Transition transition;
+        bool is_known = false;  // has been looked at
+        bool is_odd = false;    // draws its finer level in odd frames
+        uint8_t grain_doublings = 0;
+    };
+    bool advance(State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view);
+    void begin(State& state, const Placement& placement, const Selector& selector);
+    void list(uint32_t instance, const State& state, const Selector& selector);
+    void sort_items();
+    uint32_t drawn_level(const State& state) const;
+    int64_t difference(const Transition& transition) const;
+
+    ChainFacts facts_;
+    std::vector<Placement> placements_;
+    FrameOptions options_;
+    std::vector<State> states_;
+    std::vector<double> grain_m_;
+    FrameList frame_;
+    uint64_t frame_count_ = 0;
+    int64_t balance_ = 0;  // triangles that even frames draw more than odd ones
+};
+
+}  // namespace overlook::discrete

@@ -1,0 +1,257 @@
+#include "runtime/discrete/draw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <numeric>
+
+#include "runtime/discrete/draw_shaders.h"
+#include "runtime/discrete/visibility.h"
+#include "runtime/gl/background.h"
+#include "runtime/gl/png.h"
+#include "runtime/gl/surface_shaders.h"
+
+namespace overlook::discrete {
+namespace {
+
+constexpr GLuint kItemLocation = 4;
+
+// Lighter above the horizon than below: as behind meshes.
+constexpr char kBackground[] = R"(
+void main() {
+    colour = vec4(mix(vec3(0.30, 0.33, 0.38), vec3(0.62, 0.68, 0.76), 0.5 + 0.5 * direction().z), 1.0);
+}
+)";
+
+// As in draw_shaders.h.
+struct PackedVisibility {
+    uint32_t lookup = 0, width = 0, height = 0, depth = 0;
+    float period_m = 1;
+    uint32_t first = 0, pad[2] = {0, 0};
+};
+
+float linear_of(uint8_t encoded) {
+    double value = encoded / 255.0;
+    return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+}
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& from) {
+    return std::as_bytes(std::span(from));
+}
+
+void add_attribute(GLuint array, GLuint location, GLint count, GLenum type, bool is_whole, bool is_share, size_t offset) {
+    glEnableVertexArrayAttrib(array, location);
+    if (is_whole)
+        glVertexArrayAttribIFormat(array, location, count, type, GLuint(offset));
+    else
+        glVertexArrayAttribFormat(array, location, count, type, is_share ? GL_TRUE : GL_FALSE, GLuint(offset));
+    glVertexArrayAttribBinding(array, location, location == kItemLocation ? 1 : 0);
+}
+
+}  // namespace
+
+ListBuffers::ListBuffers() = default;
+
+uint64_t ListBuffers::fill(const DrawList& list) {
+    uint64_t bytes = 0;
+    auto fill = [&](gl::StreamBuffer& buffer, std::span<const std::byte> from) {
+        if (from.empty()) return;
+        buffer.fill(from);
+        bytes += from.size();
+    };
+    fill(items_, bytes_of(list.items));
+    fill(commands_, bytes_of(list.commands));
+    fill(poses_, bytes_of(list.poses));
+    if (list.items.size() > index_count_) {
+        std::vector<uint32_t> indices(list.items.size() + list.items.size() / 2);
+        std::iota(indices.begin(), indices.end(), 0u);
+        fill(indices_, bytes_of(indices));
+        index_count_ = uint32_t(indices.size());
+    }
+    return bytes;
+}
+
+Result<Drawing> Drawing::make(const Chain& chain) {
+    Drawing made;
+    made.chain_ = &chain;
+    made.layout_.origin_m = chain.origin_m;
+    made.layout_.clip_s = is_animated(chain) ? chain.clip_s : 0;
+    made.nothing_ = gl::make_vertex_array();
+    if (Result<void> uploaded = made.upload_levels(); !uploaded) return tl::unexpected(uploaded.error());
+    if (Result<void> looks = made.make_looks(); !looks) return tl::unexpected(looks.error());
+    made.upload_visibilities();
+    if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
+    if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the chain does not fit into the renderer's memory");
+    return made;
+}
+
+Result<void> Drawing::upload_levels() {
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    uint64_t vertex_count = 0, index_count = 0;
+    for (const Level& level : chain_->levels) vertex_count += level.vertices.size(), index_count += level.indices.size();
+    if (std::max(vertex_count, index_count) > uint64_t(std::numeric_limits<int32_t>::max()))
+        return impossible("a chain of {} vertices and {} indices is too large to draw at once", vertex_count, index_count);
+    vertices.reserve(vertex_count), indices.reserve(index_count);
+    for (const Level& level : chain_->levels) {
+        ChainLayout::LevelRuns& runs = layout_.levels.emplace_back();
+        runs.base_vertex = int32_t(vertices.size());
+        runs.is_plain = level.is_plain;
+        for (const Draw& draw : level.draws)
+            runs.runs.push_back({draw.surface, uint32_t(indices.size()) + draw.first_index, draw.index_count});
+        vertices.insert(vertices.end(), level.vertices.begin(), level.vertices.end());
+        indices.insert(indices.end(), level.indices.begin(), level.indices.end());
+    }
+    if (vertices.empty()) vertices.emplace_back();
+    if (indices.empty()) indices.emplace_back();
+    vertices_ = gl::make_buffer(bytes_of(vertices));
+    indices_ = gl::make_buffer(bytes_of(indices));
+    bytes_ += bytes_of(vertices).size() + bytes_of(indices).size();
+
+    array_ = gl::make_vertex_array();
+    GLuint array = array_.id();
+    glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(array, indices_.id());
+    add_attribute(array, 0, 4, GL_UNSIGNED_SHORT, true, false, offsetof(Vertex, position));
+    add_attribute(array, 1, 2, GL_SHORT, false, true, offsetof(Vertex, normal));
+    add_attribute(array, 2, 2, GL_UNSIGNED_SHORT, false, false, offsetof(Vertex, uv));
+    add_attribute(array, 3, 4, GL_UNSIGNED_BYTE, false, true, offsetof(Vertex, colour));
+    add_attribute(array, kItemLocation, 1, GL_UNSIGNED_INT, true, false, 0);
+    glVertexArrayBindingDivisor(array, 1, 1);
+    return {};
+}
+
+Result<void> Drawing::make_looks() {
+    for (const caveclod::Surface& surface : chain_->surfaces) {
+        ImageRgba8 picture{1, 1, {255, 255, 255, 255}};
+        if (!surface.texture_bytes.empty()) {
+            Result<ImageRgba8> decoded = decode_png(surface.texture, surface.texture_bytes);
+            if (!decoded)
+                faults_.push_back(decoded.error().message);
+            else
+                picture = std::move(*decoded);
+        }
+        Result<gl::Texture> texture = gl::make_texture(picture);
+        if (!texture) return impossible("{}: {}", surface.texture, texture.error().message);
+        bytes_ += picture.pixels.size();
+        Look look;
+        look.picture = std::move(*texture);
+        look.colour = {linear_of(surface.colour[0]), linear_of(surface.colour[1]), linear_of(surface.colour[2]),
+                       float(surface.colour[3]) / 255};
+        if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
+        looks_.push_back(std::move(look));
+    }
+    return {};
+}
+
+void Drawing::upload_visibilities() {
+    std::vector<PackedVisibility> table;
+    std::vector<uint8_t> values;
+    for (const Visibility& one : visibilities_of(*chain_)) {
+        uint32_t first = uint32_t(values.size());
+        // Those that are the same are stored once.
+        for (size_t i = 0; i < table.size(); ++i) {
+            if (chain_->visibility.size() <= 1) first = table[i].first;
+        }
+        table.push_back({uint32_t(one.lookup), one.width, one.height, one.depth, one.period_m, first, {0, 0}});
+        if (first == values.size()) values.insert(values.end(), one.values.begin(), one.values.end());
+        layout_.visibilities.push_back(one);
+        layout_.visibilities.back().values.clear();
+    }
+    values.resize((values.size() + 3) / 4 * 4);
+    visibilities_ = gl::make_buffer(bytes_of(table));
+    values_ = gl::make_buffer(bytes_of(values));
+    bytes_ += bytes_of(table).size() + values.size();
+}
+
+std::vector<double> Drawing::grain_m() const {
+    std::vector<double> grains;
+    for (const Visibility& one : layout_.visibilities)
+        grains.push_back(one.lookup == Visibility::Lookup::paper ? double(one.period_m) / std::max(one.width, one.height) : 0);
+    return grains;
+}
+
+Result<gl::Program> Drawing::program(const std::string& name, const std::string& defines, const std::string& main) const {
+    std::string vertex = std::string("#version 450 core\n") + shaders::kItems + shaders::kVertex;
+    std::string fragment =
+        std::string(gl::shaders::kEncoding) + defines + shaders::kItems + shaders::kFragment + shaders::kVisibility + main;
+    return gl::Program::make(name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
+}
+
+Result<void> Drawing::make_programs() {
+    Result<gl::Program> shaded = program("levels", "", shaders::kOnePictureMain);
+    if (!shaded) return tl::unexpected(shaded.error());
+    std::string behind = std::string(gl::shaders::kBackgroundDirection) + kBackground;
+    auto background =
+        gl::Program::make("background", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, behind}});
+    if (!background) return tl::unexpected(background.error());
+    one_picture_ = std::move(*shaded);
+    background_ = std::move(*background);
+    return {};
+}
+
+void Drawing::draw_calls(const gl::Program& program, const ListBuffers& buffers, const DrawList& list,
+                         std::span<const Call> calls, const DrawOptions& options) const {
+    if (calls.empty()) return;
+    const view::Camera& camera = list.camera;
+    view::Part part = options.part.value_or(view::Part{0, 0, camera.width_px, camera.height_px});
+    view::PartMap map = view::part_map(camera, part);
+    glm::mat4 clip_from_relative = view::projection(camera) * view::rotation(camera);
+    program.use();
+    glUniform4f(program.at("part"), float(map.scale.x), float(map.scale.y), float(map.shift.x), float(map.shift.y));
+    glUniform1f(program.at("step_m"), float(chain_->position_step_m));
+    glUniform2f(program.at("uv_low"), float(chain_->uv_low.x), float(chain_->uv_low.y));
+    glUniform1f(program.at("uv_step"), float(chain_->uv_step));
+    glUniform1i(program.at("is_animated"), layout_.clip_s > 0 ? 1 : 0);
+    glUniform1i(program.at("has_normals"), chain_->attributes.normals ? 1 : 0);
+    glUniformMatrix4fv(program.at("clip_from_relative"), 1, GL_FALSE, glm::value_ptr(clip_from_relative));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers.items_.id());
+    if (layout_.clip_s > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers.poses_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, visibilities_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, values_.id());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffers.commands_.id());
+    glVertexArrayVertexBuffer(array_.id(), 1, buffers.indices_.id(), 0, sizeof(uint32_t));
+    glBindVertexArray(array_.id());
+    for (const Call& call : calls) {
+        const Look& look = looks_[call.surface];
+        glBindTextureUnit(0, look.picture.id());
+        glUniform4fv(program.at("base_colour"), 1, glm::value_ptr(look.colour));
+        glUniform1f(program.at("alpha_cutoff"), look.alpha_cutoff);
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                    reinterpret_cast<const void*>(sizeof(Command) * size_t(call.first_command)),
+                                    GLsizei(call.command_count), 0);
+    }
+}
+
+void Drawing::draw_background(const view::Camera& camera, const DrawOptions& options) const {
+    view::Part part = options.part.value_or(view::Part{0, 0, camera.width_px, camera.height_px});
+    gl::draw_background(background_, camera, part, nothing_);
+}
+
+uint64_t Drawing::draw(const gl::Target& target, ListBuffers& buffers, const DrawList& list, const DrawOptions& options) const {
+    target.bind();
+    const GLfloat farthest = 0;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    if (options.is_wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    draw_calls(one_picture_, buffers, list, list.whole_calls, options);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    draw_background(list.camera, options);
+    if (!list.translucent_calls.empty()) {
+        // Over what is there, at the same depth as well; nothing translucent hides anything (Giegl and Wimmer 2007).
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+        glDepthMask(GL_FALSE);
+        glDepthFunc(GL_GEQUAL);
+        draw_calls(one_picture_, buffers, list, list.translucent_calls, options);
+        glDepthFunc(GL_GREATER);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_BLEND);
+    }
+    target.resolve();
+    return list.whole_calls.size() + list.translucent_calls.size() + 1;
+}
+
+}  // namespace overlook::discrete

@@ -1,0 +1,85 @@
+// A chain of levels on the graphics card, and drawing lists of its instances with OpenGL; which levels, director.h decides.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/discrete.h"
+#include "runtime/discrete/draw_list.h"
+#include "runtime/gl/objects.h"
+#include "runtime/gl/program.h"
+#include "runtime/gl/target.h"
+#include "runtime/view/camera.h"
+
+namespace overlook::discrete {
+
+struct DrawOptions {
+    bool is_wireframe = false;       // the triangles' edges alone
+    std::optional<view::Part> part;  // of the camera's picture, that the target shows; the whole of it if not said
+};
+
+// What a list is drawn from, filled anew for each.
+class ListBuffers {
+  public:
+    ListBuffers();
+    // Returns how many bytes went to the card.
+    uint64_t fill(const DrawList& list);
+
+  private:
+    friend class Drawing;
+    gl::StreamBuffer items_, indices_, commands_, poses_;
+    uint32_t index_count_ = 0;
+};
+
+// All levels in one vertex and one index buffer, the surfaces' pictures and the visibilities. A context must be current.
+class Drawing {
+  public:
+    // The chain must outlive it if anything of it moves. Fails with Exit::impossible if it is too large for the renderer.
+    // Pictures that cannot be read (only PNG can) are left out: their surfaces keep their colour; why stands in faults().
+    static Result<Drawing> make(const Chain& chain);
+
+    const Chain& chain() const { return *chain_; }
+    const ChainLayout& layout() const { return layout_; }
+    const std::vector<std::string>& faults() const { return faults_; }
+    uint64_t bytes() const { return bytes_; }  // on the card, without pictures' smaller levels
+    std::vector<double> grain_m() const;       // for Director::set_grain_m
+
+    // The vertex shader with a fragment shader that begins as this one's own: `main` defines main(). defines: lines of #define.
+    Result<gl::Program> program(const std::string& name, const std::string& defines, const std::string& main) const;
+    // One picture: item.show but for Show::visible, which is drawn whole.
+    const gl::Program& one_picture() const { return one_picture_; }
+
+    // Draws calls of a list that `buffers` is filled with, into whatever is bound.
+    void draw_calls(const gl::Program& program, const ListBuffers& buffers, const DrawList& list, std::span<const Call> calls,
+                    const DrawOptions& options) const;
+    // Fills the pixels in which nothing is drawn yet; their depth stays as far as it was.
+    void draw_background(const view::Camera& camera, const DrawOptions& options) const;
+    // All of a list in one picture: background, what is whole, what is translucent, resolved. Returns the calls made.
+    uint64_t draw(const gl::Target& target, ListBuffers& buffers, const DrawList& list, const DrawOptions& options) const;
+
+  private:
+    struct Look {
+        gl::Texture picture;
+        glm::vec4 colour{1};     // linear
+        float alpha_cutoff = 0;  // what is more transparent is not drawn
+    };
+    Result<void> upload_levels();
+    Result<void> make_looks();
+    void upload_visibilities();
+    Result<void> make_programs();
+
+    const Chain* chain_ = nullptr;
+    ChainLayout layout_;
+    gl::Buffer vertices_, indices_, visibilities_, values_;
+    gl::VertexArray array_;
+    std::vector<Look> looks_;
+    gl::Program one_picture_, background_;
+    gl::VertexArray nothing_;
+    std::vector<std::string> faults_;
+    uint64_t bytes_ = 0;
+};
+
+}  // namespace overlook::discrete

@@ -1,0 +1,70 @@
+// Instances of a chain of levels, drawn from frame to frame by one of the variants.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "runtime/discrete/director.h"
+#include "runtime/discrete/draw.h"
+#include "runtime/discrete/draw_turns.h"
+#include "runtime/discrete/settings.h"
+
+namespace overlook::discrete {
+
+// What one frame took: exact, and the same on every run.
+struct FrameCounts {
+    uint64_t triangle_count = 0;  // submitted for this frame
+    uint64_t draw_call_count = 0;
+    uint64_t uploaded_bytes = 0;
+    uint64_t tested_count = 0;    // instances looked at
+    uint64_t in_view_count = 0;   // of them
+    uint64_t begun_count = 0;     // changes of level begun, turned or done at once
+    uint64_t fading_count = 0;    // under way
+    uint64_t resident_bytes = 0;  // of buffers that this variant has beside the chain
+    uint64_t state_bytes = 0;     // what instances keep in main memory
+    double error_px = 0;          // the greatest bound of what is drawn, against the finest level
+};
+
+// Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
+// picture. The drawing must outlive it, a context be current.
+class FrameDrawer {
+  public:
+    // Fails with Exit::our_bug if a shader of ours does not compile.
+    static Result<std::unique_ptr<FrameDrawer>> make(const Drawing& drawing, std::span<const Placement> placements,
+                                                     const FrameOptions& options);
+    FrameDrawer(const FrameDrawer&) = delete;
+    FrameDrawer& operator=(const FrameDrawer&) = delete;
+
+    // From the next frame on they stand there; as many as before.
+    void place(std::span<const Placement> placements);
+    // dt_s: since the last frame; clip_s: where the parts' clip is, any time. Another size than the frame's before forgets that
+    // one's picture.
+    void decide(const view::Camera& camera, double dt_s, double clip_s);
+    // Draws and resolves; need not wait until it is drawn. Fails as Turns::draw.
+    Result<FrameCounts> draw(const gl::Target& target, const DrawOptions& look);
+    // From the next frame on; levels and changes under way stay as they are. Fails as make().
+    Result<void> change(const FrameOptions& options);
+
+    const Director& director() const { return director_; }
+    const FrameCounts& counts() const { return counts_; }  // of the frame decided last, before it is drawn
+
+  private:
+    FrameDrawer(const Drawing& drawing, std::span<const Placement> placements, const FrameOptions& options);
+    Result<void> make_turns();
+
+    const Drawing& drawing_;
+    Director director_;
+    std::optional<Turns> turns_;
+    ListBuffers lists_;
+    DrawList now_, before_;
+    std::vector<Placement> placed_before_;
+    Combination combination_;
+    uint64_t frame_ = 0;
+    bool has_before_ = false;
+    FrameCounts counts_;
+};
+
+}  // namespace overlook::discrete

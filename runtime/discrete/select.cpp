@@ -1,0 +1,114 @@
+#include "runtime/discrete/select.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace overlook::discrete {
+namespace {
+
+double area_m2(const Chain& chain, const Level& level) {
+    double sum = 0;
+    for (size_t i = 0; i + 2 < level.indices.size(); i += 3) {
+        glm::dvec3 a = position_m(chain, level.vertices[level.indices[i]]);
+        glm::dvec3 b = position_m(chain, level.vertices[level.indices[i + 1]]);
+        glm::dvec3 c = position_m(chain, level.vertices[level.indices[i + 2]]);
+        sum += glm::length(glm::cross(b - a, c - a)) / 2;
+    }
+    return sum;
+}
+
+}  // namespace
+
+ChainFacts facts_of(const Chain& chain) {
+    ChainFacts facts{{}, chain.middle_m, chain.radius_m};
+    double area = chain.levels.empty() ? 0 : area_m2(chain, chain.levels[0]);
+    double outline = 4 * std::numbers::pi * chain.radius_m;
+    for (const Level& level : chain.levels) {
+        double lost_m = chain.radius_m > 0 ? level.lost_area_share * area / outline : 0;
+        facts.levels.push_back({level.error_m, lost_m, level.triangle_count()});
+    }
+    return facts;
+}
+
+Placement placement_of(const scene::Transform& transform) {
+    double angle = transform.rotation_z_deg * std::numbers::pi / 180;
+    const std::array<double, 3>& to = transform.translation_m;
+    return {{to[0], to[1], to[2]}, std::cos(angle), std::sin(angle), transform.scale};
+}
+
+Selector::Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera)
+    : facts_(facts),
+      settings_(settings),
+      camera_(camera),
+      axes_(view::axes_of(camera)),
+      bound_(camera),
+      focal_px_(view::focal_px(camera)) {
+    double secant = view::corner_secant(camera);
+    corner_tangent_ = std::sqrt(secant * secant - 1);
+    for (const glm::dvec3& inwards : view::sides_of(camera)) sides_.push_back({inwards, glm::length(inwards)});
+}
+
+bool Selector::is_in_view(const Placement& placement) const {
+    glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
+    double radius_m = facts_.radius_m * placement.scale;
+    if (glm::dot(axes_.forward, from_eye_m) < camera_.near_m - radius_m) return false;
+    return std::all_of(sides_.begin(), sides_.end(),
+                       [&](const Side& side) { return glm::dot(side.inwards, from_eye_m) >= -radius_m * side.length; });
+}
+
+double Selector::error_px(const Placement& placement, uint32_t level) const {
+    glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
+    double error_m = facts_.levels[level].error_m * placement.scale;
+    return bound_(bound_.place_of(from_eye_m), facts_.radius_m * placement.scale, error_m);
+}
+
+double Selector::pixel_m(const Placement& placement) const {
+    glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
+    return std::max(glm::dot(axes_.forward, from_eye_m), camera_.near_m) / focal_px_;
+}
+
+double Selector::strain(const Placement& placement, uint32_t level) const {
+    if (level == 0) return 0;
+    glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
+    double radius_m = facts_.radius_m * placement.scale, doublings = std::exp2(double(level) - 1);
+    double distance_m = glm::length(from_eye_m);
+    switch (settings_.criterion) {
+        case Criterion::distance:
+            return settings_.distance_m * doublings / std::max(distance_m, 1e-12);
+        case Criterion::size:
+            return 2 * radius_m * focal_px_ / std::max(distance_m, 1e-12) * doublings / settings_.size_px;
+        case Criterion::error:
+        case Criterion::importance:
+            break;
+    }
+    const LevelFacts& facts = facts_.levels[level];
+    double error_m = std::max(facts.error_m, settings_.area_weight * facts.area_error_m) * placement.scale;
+    view::SphereErrorBound::Place place = bound_.place_of(from_eye_m);
+    double share = 1;
+    if (settings_.criterion == Criterion::importance) {
+        // By what of it is nearest to the frame's middle.
+        double side_m = std::max(std::hypot(place.right, place.up) - radius_m, 0.0);
+        double tangent = side_m / std::max(place.forward + radius_m, camera_.near_m);
+        share += settings_.periphery * std::min(tangent / corner_tangent_, 1.0);
+    }
+    return bound_(place, radius_m, error_m) / (settings_.error_px * share);
+}
+
+uint32_t Selector::wanted(const Placement& placement) const {
+    for (uint32_t level = uint32_t(facts_.levels.size()) - 1; level > 0; --level) {
+        if (strain(placement, level) <= settings_.refine_share) return level;
+    }
+    return 0;
+}
+
+uint32_t Selector::wanted(const Placement& placement, uint32_t level) const {
+    if (strain(placement, level) > settings_.refine_share) return wanted(placement);
+    double most = settings_.refine_share * settings_.coarsen_share;
+    for (uint32_t coarser = uint32_t(facts_.levels.size()) - 1; coarser > level; --coarser) {
+        if (strain(placement, coarser) <= most) return coarser;
+    }
+    return level;
+}
+
+}  // namespace overlook::discrete

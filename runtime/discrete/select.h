@@ -1,0 +1,84 @@
+// Which level of a chain an instance wants, for a camera.
+//
+// Based on: T. Funkhouser, C. Sequin, Adaptive Display Algorithm for Interactive Frame Rates, 1993 (size, distance from the
+// frame's middle); D. Luebke et al., Level of Detail for 3D Graphics, 2002 (hysteresis). Different here: the default is a bound
+// of the displacement in pixels that holds anywhere in the frame.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "formats/discrete.h"
+#include "formats/scene.h"
+#include "runtime/discrete/settings.h"
+#include "runtime/view/camera.h"
+#include "runtime/view/pixel_error.h"
+
+namespace overlook::discrete {
+
+struct LevelFacts {
+    double error_m = 0;
+    // Lost area as a displacement: of level 0's area A (each triangle once) and the share s that is lost, s A / 2 is seen on the
+    // mean over all directions, which is what the outline of the sphere round the thing, of radius r, sweeps when it moves by
+    // s A / (4 pi r).
+    double area_error_m = 0;
+    uint64_t triangle_count = 0;
+};
+
+// What has to be known of a chain to choose by, in its own world.
+struct ChainFacts {
+    std::vector<LevelFacts> levels;
+    glm::dvec3 middle_m{0};
+    double radius_m = 0;
+};
+// O(triangles of level 0).
+ChainFacts facts_of(const Chain& chain);
+
+// A chain stood somewhere.
+struct Placement {
+    glm::dvec3 translation_m{0};
+    double cosine = 1, sine = 0;  // of the turn about z
+    double scale = 1;
+
+    glm::dvec3 turned(const glm::dvec3& own_m) const {
+        return {scale * (cosine * own_m.x - sine * own_m.y), scale * (sine * own_m.x + cosine * own_m.y), scale * own_m.z};
+    }
+    glm::dvec3 at(const glm::dvec3& own_m) const { return translation_m + turned(own_m); }
+    bool operator==(const Placement&) const = default;
+};
+Placement placement_of(const scene::Transform& transform);
+
+// Strains of levels, and who is in the frame, of one camera.
+class Selector {
+  public:
+    Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera);
+
+    // False only if nothing of it can be in the picture.
+    bool is_in_view(const Placement& placement) const;
+    // Over 1: too coarse. 0 of level 0.
+    double strain(const Placement& placement, uint32_t level) const;
+    // The level that an instance wants which has `level`: the coarsest whose strain allows it, with hysteresis.
+    uint32_t wanted(const Placement& placement, uint32_t level) const;
+    // The same without a level in use: the coarsest whose strain is at most refine_share.
+    uint32_t wanted(const Placement& placement) const;
+    // The displacement of what the level draws, in pixels, against level 0: a bound. 0 of level 0.
+    double error_px(const Placement& placement, uint32_t level) const;
+    // Metres at its middle that are a pixel.
+    double pixel_m(const Placement& placement) const;
+
+  private:
+    const ChainFacts& facts_;
+    SelectSettings settings_;
+    view::Camera camera_;
+    view::Axes axes_;
+    view::SphereErrorBound bound_;
+    double focal_px_, corner_tangent_;
+    struct Side {
+        glm::dvec3 inwards{0};
+        double length = 0;
+    };
+    std::vector<Side> sides_;
+};
+
+}  // namespace overlook::discrete

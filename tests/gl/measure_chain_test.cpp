@@ -1,0 +1,114 @@
+// Chains of levels measured: what every variant draws beside the finest level of everything.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/gl/fixture.h"
+#include "tests/gl/measure_chain.h"
+
+namespace overlook::measure {
+namespace {
+
+const std::vector<std::string> kEvery = {"discrete@samples=1",       "discrete:fsi-paper@samples=1", "discrete:switch@samples=1",
+                                         "discrete:blend@samples=1", "discrete:dither@samples=1",    "discrete:late@samples=1"};
+
+CourseResult fly(World& world, const gl::Renderer& renderer, const std::vector<std::string>& methods, uint32_t frames) {
+    Course course;
+    course.specs = *specs_from(methods, {});
+    EXPECT_TRUE(check_draws(course.specs, world));
+    add_floors(course.specs);
+    course.cameras = dolly(frames, 160, 120);
+    Result<CourseResult> result = run_course(world, course, renderer, "", [](double) {});
+    EXPECT_TRUE(result) << result.error().message;
+    return result ? std::move(*result) : CourseResult{};
+}
+
+uint64_t sum(const RunResult& run, uint64_t Counters::*counter) {
+    uint64_t all = 0;
+    for (const FrameRecord& frame : run.frames) all += frame.counters.*counter;
+    return all;
+}
+
+TEST(MeasuredChain, IsDrawnByEveryVariant) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    World world = world_of_chain("spheres", discrete::made::sphere_chain(), field_of(6, 3));
+    CourseResult result = fly(world, context->renderer(), kEvery, 24);
+    const RunResult& full = result.runs.back();
+    ASSERT_TRUE(is_floor(full.spec));
+    for (const RunResult& run : result.runs) {
+        SCOPED_TRACE(run.label);
+        for (const FrameRecord& frame : run.frames) {
+            EXPECT_GT(frame.counters.triangle_count, 0u);
+            // Outlines of one thing before another are no borders of the picture's surface: a pixel there may count.
+            if (run.spec.variant != "fsi-paper") {  // which leaves holes where it looks up the wrong place
+                EXPECT_LE(*frame.numbers.hole_count, 12) << frame.frame;
+            }
+            if (is_floor(run.spec)) continue;
+            EXPECT_LE(frame.counters.predicted_error_px, 1.2) << frame.frame;
+            EXPECT_LT(frame.counters.triangle_count, full.frames[frame.frame].counters.triangle_count);
+        }
+    }
+    const RunResult &fsi = result.runs[0], &at_once = result.runs[2], &blend = result.runs[3], &late = result.runs[5];
+    EXPECT_GT(sum(fsi, &Counters::event_count), 0u);
+    EXPECT_GT(sum(fsi, &Counters::transition_count), sum(fsi, &Counters::event_count));
+    EXPECT_EQ(sum(at_once, &Counters::transition_count), 0u);
+    EXPECT_GT(sum(late, &Counters::triangle_count), sum(at_once, &Counters::triangle_count));
+    EXPECT_GT(sum(blend, &Counters::triangle_count), sum(fsi, &Counters::triangle_count));
+    EXPECT_GT(fsi.frames[0].counters.resident_bytes, at_once.frames[0].counters.resident_bytes + 2 * 16 * 160 * 120 - 1);
+}
+
+// The paper's promise, and what its remedies add.
+TEST(MeasuredChain, PopsLessByTurnsThanAtOnce) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    World world = world_of_chain("spheres", discrete::made::simple_chain(), field_of(4, 3));
+    CourseResult result =
+        fly(world, context->renderer(), {"discrete@error-px=5@samples=4", "discrete:switch@error-px=5@samples=4"}, 24);
+    EXPECT_GT(sum(result.runs[1], &Counters::event_count), 0u);
+    EXPECT_LT(result.runs[0].pop.index, result.runs[1].pop.index);
+}
+
+TEST(MeasuredChain, IsTheSameEveryTime) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    World world = world_of_chain("spheres", discrete::made::sphere_chain(), field_of(4, 3));
+    CourseResult once = fly(world, context->renderer(), {"discrete@samples=1"}, 8);
+    CourseResult again = fly(world, context->renderer(), {"discrete@samples=1"}, 8);
+    for (size_t frame = 0; frame < 8; ++frame) {
+        EXPECT_EQ(once.runs[0].frames[frame].counters, again.runs[0].frames[frame].counters);
+        EXPECT_EQ(once.runs[0].frames[frame].numbers.psnr_db, again.runs[0].frames[frame].numbers.psnr_db);
+    }
+}
+
+// What moves by itself is in the reference where it is in the picture.
+TEST(MeasuredChain, MovesItsReferenceToo) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    World world = world_of_chain("mills", discrete::made::windmill_chain(), field_of(3, 4));
+    CourseResult result = fly(world, context->renderer(), {"discrete:switch@error-px=0.01@samples=1"}, 5);
+    for (const FrameRecord& frame : result.runs[0].frames) {
+        EXPECT_EQ(*frame.numbers.psnr_db, *result.runs.back().frames[frame.frame].numbers.psnr_db);
+        EXPECT_GT(*frame.numbers.psnr_db, 22) << frame.frame;
+    }
+}
+
+TEST(MeasuredChain, IsNotForOtherMethods) {
+    World chain, mesh, terrain;
+    chain.name = "trees.json", mesh.name = "duck.ovl", terrain.name = "valley.json";
+    chain.chain.emplace(), mesh.mesh.emplace();
+    auto refusal = [](const char* method, const World& world) {
+        std::vector<MethodSpec> specs = {*parse_method(method)};
+        Result<void> checked = check_draws(specs, world);
+        return checked ? std::string("(drawn)") : checked.error().message;
+    };
+    EXPECT_EQ(refusal("discrete", chain), "(drawn)");
+    EXPECT_EQ(refusal("discrete:fsi", chain), "(drawn)");
+    EXPECT_EQ(refusal("discrete@search=0", chain), "(drawn)");
+    EXPECT_EQ(refusal("full", chain), "(drawn)");
+    EXPECT_EQ(refusal("discrete@error-px=3", mesh), "(drawn)");
+    EXPECT_EQ(refusal("terrain", chain), "--method terrain: it draws terrains, and trees.json holds a chain of levels");
+    EXPECT_EQ(refusal("caveclod", chain), "--method caveclod: it draws meshes, and trees.json holds a chain of levels");
+    EXPECT_EQ(refusal("discrete:switch", mesh), "--method discrete:switch: it draws chains of levels, and duck.ovl holds a mesh");
+    EXPECT_EQ(refusal("discrete@search=0", mesh), "--method discrete: search is of chains of levels, and duck.ovl holds a mesh");
+    EXPECT_EQ(refusal("discrete", terrain), "--method discrete: it draws meshes, and valley.json holds a terrain");
+}
+
+}  // namespace
+}  // namespace overlook::measure

@@ -1,0 +1,79 @@
+#include "tools/measure/discrete_method.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "runtime/discrete/draw_frames.h"
+
+namespace overlook::measure {
+namespace {
+
+constexpr std::array<DiscreteVariant, 6> kVariants = {{{"fsi", discrete::Variant::fsi},
+                                                       {"fsi-paper", discrete::Variant::fsi_paper},
+                                                       {"switch", discrete::Variant::hard},
+                                                       {"blend", discrete::Variant::blend},
+                                                       {"dither", discrete::Variant::dither},
+                                                       {"late", discrete::Variant::late}}};
+
+discrete::FrameOptions options_of(const MethodSpec& spec) {
+    auto found = std::find_if(kVariants.begin(), kVariants.end(), [&](const auto& one) { return one.name == spec.variant; });
+    discrete::FrameOptions options = discrete::defaults_of(found == kVariants.end() ? kVariants.front().variant : found->variant);
+    for (const auto& [name, value] : spec.settings) {
+        if (name != "samples") discrete::set(options, name, value);
+    }
+    return options;
+}
+
+class Chain : public Method {
+  public:
+    Chain(World& world, const MethodSpec& spec) : world_(world) {
+        Result<std::unique_ptr<discrete::FrameDrawer>> frames =
+            discrete::FrameDrawer::make(*world.chain->drawing, world.chain->placements, options_of(spec));
+        assert(frames);
+        frames_ = std::move(*frames);
+    }
+
+    void decide(const view::Camera& camera, uint32_t frame) override {
+        frames_->decide(camera, double(frame - last_frame_) * world_.step_s, double(frame) * world_.step_s);
+        last_frame_ = frame;
+    }
+
+    Counters draw(const gl::Target& target) override {
+        Result<discrete::FrameCounts> drawn = frames_->draw(target, {});
+        assert(drawn);
+        Counters counters;
+        counters.triangle_count = drawn->triangle_count;
+        counters.vertex_reference_count = 3 * counters.triangle_count;
+        counters.draw_call_count = drawn->draw_call_count;
+        counters.uploaded_bytes = drawn->uploaded_bytes;
+        counters.tested_count = drawn->tested_count;
+        counters.resident_bytes = world_.resident_bytes + drawn->resident_bytes;
+        counters.event_count = drawn->begun_count;
+        counters.transition_count = drawn->fading_count;
+        counters.camera_bytes = drawn->state_bytes;
+        counters.predicted_error_px = drawn->error_px;
+        return counters;
+    }
+
+  private:
+    World& world_;
+    std::unique_ptr<discrete::FrameDrawer> frames_;
+    uint32_t last_frame_ = 0;
+};
+
+}  // namespace
+
+std::span<const DiscreteVariant> discrete_variants() {
+    return kVariants;
+}
+
+bool is_of_whole_meshes(std::string_view setting_name) {
+    return setting_name == "error-px" || setting_name == "samples";
+}
+
+std::unique_ptr<Method> make_chain_method(World& world, const MethodSpec& spec) {
+    return std::make_unique<Chain>(world, spec);
+}
+
+}  // namespace overlook::measure
