@@ -92,10 +92,7 @@ TEST(DiscreteDrawing, IsTheSameAtRestWhateverTheVariant) {
 }
 
 // On the way nothing is shown but what lies between the two levels, and the new one in the end.
-TEST(DiscreteDrawing, GoesFromOneLevelToTheOther) {
-    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
-    gl::ErrorCounter errors;
-    Chain chain = made::simple_chain();
+void expect_only_what_lies_between(const Chain& chain, Variant variant) {
     view::Camera far_off = camera_from({0, -11, 0}), near = camera_from({0, -9, 0});
     Film hard(chain, {Placement{}}, by_distance(Variant::hard));
     FrameOptions always = by_distance(Variant::hard);
@@ -103,24 +100,39 @@ TEST(DiscreteDrawing, GoesFromOneLevelToTheOther) {
     Film coarse(chain, {Placement{}}, always);
     ImageRgb8 fine_picture = hard.frame(near), coarse_picture = coarse.frame(near);
     ASSERT_GT(made::differing(fine_picture, coarse_picture, 20), 300u);
+    Film film(chain, {Placement{}}, by_distance(variant));
+    film.frame(far_off);
+    ImageRgb8 last;
+    size_t changed = 0, leaking = 0;
+    for (int frame = 0; frame < 20; ++frame) {
+        double phase_before = film.transition().phase;
+        ImageRgb8 picture = film.frame(near);
+        if (frame > 1) {  // the first frames' older pictures are from elsewhere
+            size_t beyond = made::beyond(picture, fine_picture, coarse_picture, 3);
+            // The paper's two buffers are a frame apart: where the new level was not yet whole and the old one is not any more,
+            // what is behind both shows through.
+            bool may_leak = variant == Variant::fsi_paper && phase_before < 0.5 && film.transition().phase > 0.5;
+            leaking += may_leak && beyond > 0;
+            if (!may_leak) {
+                EXPECT_EQ(beyond, 0u) << frame;
+            }
+            changed += made::differing(picture, last) > 0;
+        }
+        last = picture;
+    }
+    EXPECT_EQ(leaking, variant == Variant::fsi_paper ? 1u : 0u);
+    EXPECT_GE(changed, 6u);
+    EXPECT_EQ(made::differing(last, fine_picture), 0u);
+}
+
+TEST(DiscreteDrawing, GoesFromOneLevelToTheOther) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    gl::ErrorCounter errors;
     for (Variant variant : {Variant::fsi, Variant::fsi_paper, Variant::blend, Variant::dither}) {
         SCOPED_TRACE(int(variant));
-        Film film(chain, {Placement{}}, by_distance(variant));
-        film.frame(far_off);
-        ImageRgb8 last;
-        size_t changed = 0;
-        for (int frame = 0; frame < 20; ++frame) {
-            ImageRgb8 picture = film.frame(near);
-            // The paper's form and blending let see what is inside; the first frames' older pictures are from elsewhere.
-            bool is_open = variant == Variant::fsi_paper || variant == Variant::blend;
-            if (frame > 1) {
-                EXPECT_LE(made::beyond(picture, fine_picture, coarse_picture, 3), is_open ? 64u : 0u) << frame;  // of 7,680
-                changed += made::differing(picture, last) > 0;
-            }
-            last = picture;
-        }
-        EXPECT_GE(changed, 6u);
-        EXPECT_EQ(made::differing(last, fine_picture), 0u);
+        expect_only_what_lies_between(made::flat_chain(), variant);
+        // Of closed things the paper's form and blending let see the inside as well, which is the paper's drawback 5.
+        if (variant == Variant::fsi || variant == Variant::dither) expect_only_what_lies_between(made::simple_chain(), variant);
     }
     EXPECT_EQ(errors.count(), 0u) << errors.first();
 }

@@ -122,6 +122,25 @@ inline Chain simple_chain(double cube_half_m = 0.8) {
     return chain;
 }
 
+// Seen from the south: a red disc and a blue square, of one layer each, so that nothing has an inside.
+inline Chain flat_chain() {
+    Chain chain = empty_chain(glm::dvec3(-1), 2);
+    Level disc;
+    constexpr int kCorners = 24;
+    uint32_t middle = add_vertex(chain, disc, {0, 0, 0}, {0, -1, 0}, {210, 50, 40, 255});
+    for (int i = 0; i < kCorners; ++i) {
+        double angle = 2 * std::numbers::pi * i / kCorners;
+        add_vertex(chain, disc, {std::cos(angle), 0, std::sin(angle)}, {0, -1, 0}, {210, 50, 40, 255});
+    }
+    for (uint32_t i = 0; i < kCorners; ++i)
+        for (uint32_t corner : {middle, middle + 1 + i, middle + 1 + (i + 1) % kCorners}) disc.indices.push_back(corner);
+    end_level(chain, std::move(disc), 0);
+    Level square;
+    add_quad(chain, square, {glm::dvec3{-0.8, 0, -0.8}, {0.8, 0, -0.8}, {0.8, 0, 0.8}, {-0.8, 0, 0.8}}, {40, 80, 220, 255});
+    end_level(chain, std::move(square), 0.8 * std::sqrt(2.0) - 1 + 0.2);
+    return chain;
+}
+
 // Two cubes that are the same, of other colours: nothing but coplanar faces.
 inline Chain coplanar_chain() {
     Chain chain = empty_chain(glm::dvec3(-1), 2);
