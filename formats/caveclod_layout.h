@@ -41,13 +41,6 @@ constexpr uint64_t kValuesPerByte = 256;
 constexpr uint64_t kSurfaceBytesMax = uint64_t(1) << 30;
 constexpr uint32_t kNameBytesMax = 1 << 12;
 
-inline void store_f64(std::span<std::byte> bytes, size_t offset, double value) {
-    store_le<uint64_t>(bytes, offset, std::bit_cast<uint64_t>(value));
-}
-inline double load_f64(std::span<const std::byte> bytes, size_t offset) {
-    return std::bit_cast<double>(load_le<uint64_t>(bytes, offset));
-}
-
 // XXH3-64 of a block's stored bytes.
 uint64_t block_checksum(std::span<const std::byte> bytes);
 

@@ -55,19 +55,6 @@ constexpr uint64_t kVisibilityBytesMax = uint64_t(kMostLevels) * (kMostValues + 
 // Of the sphere: what rests may stand out of it by so much of its radius, for rounding.
 constexpr double kSphereSlack = 1e-6;
 
-inline void store_f64(std::span<std::byte> bytes, size_t offset, double value) {
-    store_le<uint64_t>(bytes, offset, std::bit_cast<uint64_t>(value));
-}
-inline void store_f32(std::span<std::byte> bytes, size_t offset, float value) {
-    store_le<uint32_t>(bytes, offset, std::bit_cast<uint32_t>(value));
-}
-inline double load_f64(std::span<const std::byte> bytes, size_t offset) {
-    return std::bit_cast<double>(load_le<uint64_t>(bytes, offset));
-}
-inline float load_f32(std::span<const std::byte> bytes, size_t offset) {
-    return std::bit_cast<float>(load_le<uint32_t>(bytes, offset));
-}
-
 // Which rule something breaks, and how; rule 0: none.
 struct Fault {
     int rule = 0;

@@ -57,7 +57,13 @@ bool meshopt_unpack(std::span<const std::byte> packed, std::span<uint32_t> value
     return true;
 }
 
+// The versions that the formats' documents name, whatever the library's newest are.
+static void pin_versions() {
+    [[maybe_unused]] static const bool is_pinned = (meshopt_encodeVertexVersion(0), meshopt_encodeIndexVersion(0), true);
+}
+
 std::vector<std::byte> meshopt_packed_records(std::span<const std::byte> records, size_t record_bytes) {
+    pin_versions();
     assert(!records.empty() && record_bytes % 4 == 0 && record_bytes <= 256 && records.size() % record_bytes == 0);
     size_t count = records.size() / record_bytes;
     std::vector<std::byte> packed(meshopt_encodeVertexBufferBound(count, record_bytes));
@@ -73,6 +79,7 @@ bool meshopt_unpack_records(std::span<const std::byte> packed, size_t record_byt
 }
 
 std::vector<std::byte> meshopt_packed_triangles(std::span<const uint32_t> indices, size_t vertex_count) {
+    pin_versions();
     assert(!indices.empty() && indices.size() % 3 == 0);
     std::vector<std::byte> packed(meshopt_encodeIndexBufferBound(indices.size(), vertex_count));
     packed.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(packed.data()), packed.size(), indices.data(),

@@ -44,19 +44,6 @@ constexpr size_t offset = 0, checksum = 8, stored_bytes = 16, raw_bytes = 20, en
 constexpr size_t kTextureHeadBytes = 8;
 constexpr uint32_t kTextureSideMax = 32768;
 
-inline void store_f64(std::span<std::byte> bytes, size_t offset, double value) {
-    store_le<uint64_t>(bytes, offset, std::bit_cast<uint64_t>(value));
-}
-inline void store_f32(std::span<std::byte> bytes, size_t offset, float value) {
-    store_le<uint32_t>(bytes, offset, std::bit_cast<uint32_t>(value));
-}
-inline double load_f64(std::span<const std::byte> bytes, size_t offset) {
-    return std::bit_cast<double>(load_le<uint64_t>(bytes, offset));
-}
-inline float load_f32(std::span<const std::byte> bytes, size_t offset) {
-    return std::bit_cast<float>(load_le<uint32_t>(bytes, offset));
-}
-
 // XXH3-64 of a block's stored bytes.
 uint64_t block_checksum(std::span<const std::byte> bytes);
 

@@ -21,7 +21,9 @@ std::vector<std::string> made(const std::string& name, const ScratchFolder& fold
 }
 
 mesh::MeshFile opened(const std::string& path) {
-    auto file = mesh::open_mesh(path);
+    mesh::Options options;
+    options.reads_motion = true;
+    auto file = mesh::open_mesh(path, options);
     EXPECT_TRUE(file) << file.error().message;
     return file ? *file : mesh::MeshFile{};
 }

@@ -22,6 +22,7 @@ struct Options {
     double metres_per_unit = 1;  // the file's unit of length; > 0
     Up up = Up::automatic;
     uint32_t lod = 0;            // of glTF nodes with MSFT_lod: 0 the node itself, else the lod-th of those named (or the last)
+    bool reads_motion = false;   // whether a glTF file's animation is read into MeshFile::motion
     bool reads_textures = true;  // whether pictures beside the file are read into Surface::texture_bytes
 };
 

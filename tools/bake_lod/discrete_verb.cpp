@@ -45,18 +45,19 @@ Result<std::vector<mesh::MeshFile>> read_meshes(const DiscreteArgs& args) {
     return files;
 }
 
-Result<uint64_t> write_file(const DiscreteArgs& args, const DiscreteDone& done) {
+Result<uint64_t> write_file(const DiscreteArgs& args, const DiscreteDone& done, uint64_t seed) {
     container::Provenance provenance{kName, command::version(), mesh::options_in_words(args.choices), {}};
     auto add = [&](const char* name, const std::string& value) { provenance.options.emplace_back(name, value); };
     add("levels-from", done.is_cut ? "cut" : "files");
     if (!done.is_cut && args.meshes.size() == 1) add("lods", fmt::format("{}", done.inputs.size()));
-    bool is_name = args.visibility.find('.') == std::string::npos;
-    add("visibility", is_name ? args.visibility : std::filesystem::path(args.visibility).filename().string());
+    add("visibility", std::filesystem::path(args.visibility).filename().string()), add("seed", fmt::format("{}", seed));
     if (args.visibility_period_m != 1) add("visibility-period-m", fmt::format("{}", args.visibility_period_m));
     if (done.is_cut) {
         const discrete::LadderOptions& ladder = args.ladder;
         add("foliage", args.foliage), add("factor", fmt::format("{}", ladder.factor));
-        add("least-saving", fmt::format("{}", ladder.least_saving)), add("most-levels", fmt::format("{}", ladder.most_levels));
+        add("least-triangles", fmt::format("{}", ladder.least_triangles)),
+            add("least-saving", fmt::format("{}", ladder.least_saving)),
+            add("most-levels", fmt::format("{}", ladder.most_levels));
         add("view",
             fmt::format("{} px, {} deg, {} px allowed", ladder.view.height_px, ladder.view.fov_y_deg, ladder.view.error_px));
     }
@@ -186,6 +187,7 @@ CLI::App* add_discrete_verb(CLI::App& app, DiscreteArgs& args, command::Common& 
 int bake_discrete(DiscreteArgs args, const command::Common& common) {
     args.choices.input.up = args.up == "y" ? mesh::Up::y : args.up == "z" ? mesh::Up::z : mesh::Up::automatic;
     args.choices.bake.simplify.seams.moves = args.seams == "budgeted";
+    args.choices.input.reads_motion = true;
     if (auto checked = check_output(args); !checked) return command::fail(kName, checked.error());
     auto begin = std::chrono::steady_clock::now();
     auto files = read_meshes(args);
@@ -202,7 +204,7 @@ int bake_discrete(DiscreteArgs args, const command::Common& common) {
     done.chain = std::move(*chain);
     done.bake_s = seconds_since(begin);
 
-    auto bytes = write_file(args, done);
+    auto bytes = write_file(args, done, common.seed);
     if (!bytes) return command::fail(kName, bytes.error());
     done.bytes = *bytes;
     report_discrete(args, done, common);

@@ -9,7 +9,7 @@
 namespace overlook::baked {
 namespace {
 
-// At rest; a vertex takes the colour of the first draw that uses it.
+// At rest; a vertex takes the colour of the last draw that uses it.
 MeshData mesh_of(const discrete::Chain& chain, const discrete::Level& level) {
     MeshData mesh;
     mesh.indices = level.indices;

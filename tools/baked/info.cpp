@@ -179,7 +179,7 @@ int info(const InfoArgs& args, const command::Common& common) {
     }
     json["provenance"] = provenance_json(*provenance);
     if (common.json)
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else
         print_text(json, chain);
     return int(Exit::done);

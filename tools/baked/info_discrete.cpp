@@ -42,7 +42,7 @@ std::string chain_json(const discrete::Chain& chain) {
         json["visibility"].push_back({{"lookup", v.lookup == discrete::Visibility::Lookup::paper ? "paper" : "volume"},
                                       {"size", {v.width, v.height, v.depth}},
                                       {"period_m", double(v.period_m)}});
-    return json.dump();
+    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 void print_chain(const discrete::Chain& chain) {

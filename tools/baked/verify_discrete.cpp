@@ -91,6 +91,7 @@ int verify_discrete(const VerifyArgs& args, const container::Reader& file, const
     if (!provenance) return command::fail(kName, provenance.error());
     auto choices = mesh::choices_from_words(*provenance);
     if (!choices) return command::fail(kName, Error{choices.error().exit, args.file + ": " + choices.error().message});
+    choices->input.reads_motion = true;
     auto sources = read_sources(args, *provenance, choices->input);
     if (!sources) return command::fail(kName, sources.error());
     if (sources->size() > chain->levels.size())

@@ -45,22 +45,40 @@ TEST(ChainFromLevels, StatesNoErrorBelowThatOfAFinerLevel) {
 }
 TEST(ChainFromLevels, BoundsALevelWithoutAPartByTheWholeSphere) {
     ScratchFolder folder;
-    auto whole = mesh::open_mesh(written(folder, "whole.glb", sample::glb_text(sample::windmill(2), 4)));
+    auto whole = mesh::open_mesh(written(folder, "whole.glb", sample::glb_text(sample::windmill(2), 4)), test::with_motion());
     std::vector<sample::GlbNode> tower_alone = sample::windmill(2);
     tower_alone.pop_back();
-    auto tower = mesh::open_mesh(written(folder, "tower.glb", sample::glb_text(tower_alone, 4)));
+    auto tower = mesh::open_mesh(written(folder, "tower.glb", sample::glb_text(tower_alone, 4)), test::with_motion());
     ASSERT_TRUE(whole && tower);
     std::vector<MeasuredLevel> measured;
     auto chain = chain_from_levels(std::vector<mesh::MeshFile>{*whole, *tower}, {}, measured, [](double) {});
     ASSERT_TRUE(chain) << chain.error().message;
     EXPECT_GE(double(chain->levels[1].error_m), 2 * chain->radius_m);
 }
+TEST(ChainFromLevels, KeepsPartsOfOneNameApart) {
+    ScratchFolder folder;
+    std::vector<sample::GlbNode> twins = sample::windmill(2);
+    twins.push_back(twins[1]);
+    twins[2].at_m = {40, -3.2, 13.9};
+    auto file = mesh::open_mesh(written(folder, "twins.glb", sample::glb_text(twins, 4)), test::with_motion());
+    ASSERT_TRUE(file);
+    std::vector<MeasuredLevel> measured;
+    auto chain = chain_from_levels(std::vector<mesh::MeshFile>{*file}, {}, measured, [](double) {});
+    ASSERT_TRUE(chain) << chain.error().message;
+    ASSERT_EQ(chain->parts.size(), 3u);
+    EXPECT_EQ(chain->parts[1].name, chain->parts[2].name);
+    for (const Vertex& vertex : chain->levels[0].vertices) {
+        if (vertex.part > 0) {
+            EXPECT_EQ(vertex.part == 2, position_m(*chain, vertex).x > 20);
+        }
+    }
+}
 TEST(ChainFromLevels, RefusesAPartThatTheFinestHasNot) {
     ScratchFolder folder;
     std::vector<sample::GlbNode> renamed = sample::windmill(2);
     renamed[1].name = "wings";
-    auto first = mesh::open_mesh(written(folder, "first.glb", sample::glb_text(sample::windmill(1), 4)));
-    auto second = mesh::open_mesh(written(folder, "second.glb", sample::glb_text(renamed, 4)));
+    auto first = mesh::open_mesh(written(folder, "first.glb", sample::glb_text(sample::windmill(1), 4)), test::with_motion());
+    auto second = mesh::open_mesh(written(folder, "second.glb", sample::glb_text(renamed, 4)), test::with_motion());
     ASSERT_TRUE(first && second);
     std::vector<MeasuredLevel> measured;
     auto chain = chain_from_levels(std::vector<mesh::MeshFile>{*first, *second}, {}, measured, [](double) {});
@@ -84,6 +102,7 @@ TEST(MsftLod, GivesTheLevelsThatANodeNames) {
     for (auto [lod, triangles] : {std::pair(0u, 2u), std::pair(1u, 1u), std::pair(9u, 1u)}) {
         mesh::Options options;
         options.lod = lod;
+        options.reads_motion = true;
         auto file = mesh::open_mesh(path, options);
         ASSERT_TRUE(file) << file.error().message;
         EXPECT_EQ(file->report.lod_count, 1u);

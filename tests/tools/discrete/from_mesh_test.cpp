@@ -95,18 +95,22 @@ TEST(ChainOfFoliage, LosesWholeCardsWithinItsBoundAndStatesTheAreaThatIsGone) {
     EXPECT_EQ(report.card_triangle_count, 3000u);
     ASSERT_GE(chain.levels.size(), 4u);
     expect_bounded(chain, 0.3);
-    double finest_m2 = 0;
+    double finest_m2 = 0, finest_leaves_m2 = 0;
     for (const Level& level : chain.levels) {
         uint64_t card_triangles = 0;
-        double area_m2 = 0;
+        double area_m2 = 0, leaves_m2 = 0;
+        std::vector<caveclod::Triangle> all = triangles_of(chain, level);
         for (const Draw& draw : level.draws) {
-            if (chain.surfaces[draw.surface].name != "leaves") continue;
-            card_triangles = draw.index_count / 3;
+            bool is_leaves = chain.surfaces[draw.surface].name == "leaves";
+            if (is_leaves) card_triangles = draw.index_count / 3;
+            for (uint32_t i = draw.first_index / 3; i < (draw.first_index + draw.index_count) / 3; ++i) {
+                double one_m2 = glm::length(glm::cross(all[i][1] - all[i][0], all[i][2] - all[i][0])) / 2;
+                area_m2 += one_m2, leaves_m2 += is_leaves ? one_m2 : 0;
+            }
         }
         EXPECT_EQ(card_triangles % 2, 0u);
-        for (const caveclod::Triangle& t : triangles_of(chain, level))
-            area_m2 += glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2;
-        if (&level == &chain.levels[0]) finest_m2 = area_m2;
+        if (&level == &chain.levels[0]) finest_m2 = area_m2, finest_leaves_m2 = leaves_m2;
+        EXPECT_GE(double(level.lost_area_share), (finest_leaves_m2 - leaves_m2) / finest_m2 - 1e-3);
         // The bark loses area too, but that is told by its distance.
         EXPECT_LE(double(level.lost_area_share), 1 - area_m2 / finest_m2 + 1e-3);
     }

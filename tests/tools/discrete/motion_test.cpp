@@ -22,7 +22,8 @@ std::string written(const ScratchFolder& folder, const std::string& name, const 
     return folder / name;
 }
 
-// One triangle under a node, under a parent, animated by `animation` ({0} times, {1} turns, {2} moves).
+// One triangle under a node, under a parent, animated by `animation` ({0} times, {1} turns, {2} moves, {3} two times, {4} their
+// moves by cubics: tangent in, value, tangent out).
 Result<mesh::MeshFile> animated(const ScratchFolder& folder, const std::string& nodes, const std::string& channels,
                                 const std::string& samplers) {
     GltfMaker maker;
@@ -31,12 +32,15 @@ Result<mesh::MeshFile> animated(const ScratchFolder& folder, const std::string& 
     int times = maker.floats({0, 1, 2}, "SCALAR", 1);
     int turns = maker.floats({0, 0, 0, 1, 0, 0, half, half, 0, 0, 1, 0}, "VEC4", 4);  // about z: 0, 90, 180 degrees
     int moves = maker.floats({0, 0, 0, 0, 2, 0, 0, 2, 4}, "VEC3", 3);
-    std::string filled = fmt::format(fmt::runtime(samplers), times, turns, moves);
+    int span = maker.floats({0, 1}, "SCALAR", 1);
+    int eased = maker.floats({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3", 3);
+    std::string filled = fmt::format(fmt::runtime(samplers), times, turns, moves, span, eased);
     return mesh::open_mesh(
         written(folder, "a.glb",
                 maker.glb(fmt::format(R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":{}}}}}]}}],"nodes":{},"scene":0,
             "scenes":[{{"nodes":[0]}}],"animations":[{{"channels":{},"samplers":[{}]}}])",
-                                      positions, nodes, channels, filled))));
+                                      positions, nodes, channels, filled))),
+        test::with_motion());
 }
 
 // Where a place of the file's own axes (y up) is drawn at a time, in the mesh's axes (z up) turned back.
@@ -79,6 +83,30 @@ TEST(Motion, TurnsAboutTheNodesOwnPlaceAndMovesWithItsParents) {
         EXPECT_LT(glm::distance(drawn(parts, wheel, 2, at_s, {11, 0, 0}), wanted), 2e-3) << at_s;
     }
 }
+// A cubic without tangents is in the middle where the straight way is, and nowhere else.
+TEST(Motion, EasesAsTheFileSays) {
+    ScratchFolder folder;
+    auto file = animated(folder, R"([{"name":"lift","mesh":0}])", R"([{"sampler":0,"target":{"node":0,"path":"translation"}}])",
+                         R"({{"input":{3},"output":{4},"interpolation":"CUBICSPLINE"}})");
+    ASSERT_TRUE(file) << file.error().message;
+    std::vector<Part> parts = parts_of(file->motion);
+    for (double t = 0; t < 1; t += 0.03)
+        EXPECT_LT(glm::distance(drawn(parts, 1, 1, t, {0, 0, 0}), {3 * t * t - 2 * t * t * t, 0, 0}), 2e-3) << t;
+}
+TEST(Motion, IsReadWhereItIsAskedForAlone) {
+    ScratchFolder folder;
+    auto broken = animated(folder, R"([{"mesh":0}])", kTurnChannel, R"({{"input":{1},"output":{0}}})");
+    EXPECT_FALSE(broken);
+    auto still = mesh::open_mesh(folder / "a.glb");
+    ASSERT_TRUE(still) << still.error().message;
+    EXPECT_TRUE(still->motion.is_empty());
+}
+TEST(Motion, NamesArePrintable) {
+    ScratchFolder folder;
+    auto file = animated(folder, R"([{"name":"arm\n\u0007","mesh":0}])", kTurnChannel, kTurn);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->motion.parts[0].name, "arm  ");
+}
 TEST(Motion, OfAScaledNodeIsRigidAndIsInMetres) {
     ScratchFolder folder;
     auto file = animated(folder, R"([{"mesh":0,"scale":[3,3,3],"translation":[0,5,0]}])", kTurnChannel, kTurn);
@@ -107,7 +135,7 @@ TEST(Motion, OfBrokenAnimationsIsRefused) {
 
 TEST(ChainOfAWindmill, MovesRigidlyAndKeepsItsBoundsAllTheTime) {
     ScratchFolder folder;
-    auto file = mesh::open_mesh(written(folder, "windmill.glb", sample::glb_text(sample::windmill(1), 8)));
+    auto file = mesh::open_mesh(written(folder, "windmill.glb", sample::glb_text(sample::windmill(1), 8)), test::with_motion());
     ASSERT_TRUE(file) << file.error().message;
     MeshChainOptions options;
     options.bake.simplify.seams.moves = true;

@@ -10,6 +10,12 @@
 
 namespace overlook::discrete::test {
 
+inline mesh::Options with_motion() {
+    mesh::Options options;
+    options.reads_motion = true;
+    return options;
+}
+
 inline mesh::MeshFile file_of(mesh::Mesh mesh) {
     mesh::MeshFile file;
     if (mesh.uvs.empty()) mesh.face_uvs.clear();

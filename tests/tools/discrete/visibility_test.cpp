@@ -52,7 +52,7 @@ TEST(WhiteNoise, HasEveryValueAboutAsOftenAndFollowsTheSeed) {
     Visibility noise = white_noise({1, 2});
     EXPECT_EQ(noise.width, 64u);
     EXPECT_EQ(noise.period_m, 2);
-    for (int count : counts_of(noise)) EXPECT_NEAR(count, 16, 16);
+    for (int count : counts_of(noise)) EXPECT_NEAR(count, 16.5, 15.5);
     EXPECT_EQ(noise, white_noise({1, 2}));
     EXPECT_NE(noise, white_noise({2, 2}));
     EXPECT_GT(low_frequencies(noise), 0.5);

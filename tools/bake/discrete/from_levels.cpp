@@ -17,15 +17,18 @@ uint32_t number_of(std::vector<caveclod::Surface>& surfaces, const caveclod::Sur
     return uint32_t(found - surfaces.begin());
 }
 
-// Number in `parts` of each part of a file's motion, the resting one first.
+// Number in `parts` of each part of a file's motion, the resting one first. Of one name, the n-th is the n-th.
 Result<std::vector<uint32_t>> parts_by_name(const std::vector<Part>& parts, const mesh::MeshFile& file,
                                             const mesh::MeshFile& first) {
     std::vector<uint32_t> numbers{0};
+    std::vector<uint8_t> is_taken(parts.size(), 0);
     for (const mesh::Motion::Part& part : file.motion.parts) {
-        auto found = std::find_if(parts.begin() + 1, parts.end(), [&](const Part& p) { return p.name == part.name; });
-        if (found == parts.end())
+        uint32_t p = 1;
+        while (p < parts.size() && (is_taken[p] != 0 || parts[p].name != part.name)) ++p;
+        if (p == parts.size())
             return bad_input("{}: its part {} is not in {}", file.report.source_name, part.name, first.report.source_name);
-        numbers.push_back(uint32_t(found - parts.begin()));
+        is_taken[p] = 1;
+        numbers.push_back(p);
     }
     return numbers;
 }

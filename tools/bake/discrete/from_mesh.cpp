@@ -106,7 +106,7 @@ Result<Chain> chain_from_mesh(const mesh::MeshFile& file, const MeshChainOptions
         Level& level = chain.levels[k++];
         if (k == 1) continue;
         level.error_m = rounded_up(tried.candidate.error_m + 2 * report.rounding_m);
-        level.lost_area_share = std::min(1.0f, float(tried.lost_area_share));
+        level.lost_area_share = std::min(1.0f, rounded_up(tried.lost_area_share));
     }
     chain.finest_error_m = family->finest_error_m() + report.rounding_m;
     fit_sphere(chain);

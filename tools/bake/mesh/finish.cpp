@@ -144,6 +144,17 @@ void clean_attributes(Mesh& mesh, MeshReport& report) {
     (void)make_unique(mesh.colours, mesh.face_colours, [](const auto&) { return true; });
 }
 
+// What baked files can hold: no control characters, and so many bytes at most, cut between characters.
+void make_storable(std::string& name) {
+    constexpr size_t kMostBytes = 4096;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return uint8_t(c) < ' ' || uint8_t(c) == 127; }, ' ');
+    if (name.size() <= kMostBytes) return;
+    size_t end = kMostBytes;
+    while (end > 0 && (uint8_t(name[end]) & 0xc0) == 0x80) --end;
+    name.resize(end);
+}
+
 }  // namespace
 
 Result<MeshFile> finish(Soup soup, const InputFile& file) {
@@ -159,6 +170,8 @@ Result<MeshFile> finish(Soup soup, const InputFile& file) {
     repair(soup.mesh, soup.report);
     if (auto r = check_has_faces(soup.mesh, soup.report, file.path); !r) return tl::unexpected(r.error());
     scale(soup.motion, file.options.metres_per_unit);
+    for (Surface& surface : soup.mesh.surfaces) make_storable(surface.name), make_storable(surface.texture);
+    for (Motion::Part& part : soup.motion.parts) make_storable(part.name);
     return MeshFile{std::move(soup.mesh), std::move(soup.report), std::move(soup.motion)};
 }
 

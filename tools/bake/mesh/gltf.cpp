@@ -29,7 +29,9 @@ class SceneReader {
 
     Result<Soup> read() {
         for (const Material& material : document_.materials) add_surface(material);
-        if (auto r = motions_.read(); !r) return tl::unexpected(r.error());
+        if (file_.options.reads_motion) {
+            if (auto r = motions_.read(); !r) return tl::unexpected(r.error());
+        }
         if (auto r = walk(); !r) return tl::unexpected(r.error());
         if (soup_.mesh.surfaces.empty()) soup_.mesh.surfaces.resize(1);
         drop_empty_pools();

@@ -140,15 +140,20 @@ bool MotionReader::key_at(const std::vector<uint32_t>& ancestors, double time_s,
     return true;
 }
 
-// Adds keys between two until what lies in the middle is where it should be.
+// Adds keys between two until what lies a quarter of the way, three quarters and half of it is where it should be: of one cubic
+// span, whose deviation is t (1 - t) (a + b t), two places tell a and b. The middle alone does not: there an even ease crosses
+// the straight way.
 bool MotionReader::refine(const std::vector<uint32_t>& ancestors, const Motion::Key& before, const Motion::Key& after, int depth,
                           std::vector<Motion::Key>& keys) const {
     Motion::Key middle;
-    if (!key_at(ancestors, (before.at_s + after.at_s) / 2, middle)) return false;
-    double cosine = std::abs(glm::dot(glm::slerp(before.turn, after.turn, 0.5), middle.turn));
-    glm::dvec3 off = glm::mix(before.move_m, after.move_m, 0.5) - middle.move_m;
-    bool is_near = 2 * std::acos(std::min(1.0, cosine)) <= kTurnSlack_rad &&
-                   glm::length(off) <= kMoveSlack * (glm::length(after.move_m - before.move_m) + 1e-6);
+    bool is_near = true;
+    for (double share : {0.25, 0.75, 0.5}) {
+        if (!key_at(ancestors, glm::mix(before.at_s, after.at_s, share), middle)) return false;
+        double cosine = std::abs(glm::dot(glm::slerp(before.turn, after.turn, share), middle.turn));
+        glm::dvec3 off = glm::mix(before.move_m, after.move_m, share) - middle.move_m;
+        is_near = is_near && 2 * std::acos(std::min(1.0, cosine)) <= kTurnSlack_rad &&
+                  glm::length(off) <= kMoveSlack * (glm::length(after.move_m - before.move_m) + 1e-6);
+    }
     // A turn of nearly half a circle could go either way.
     bool is_short = std::abs(glm::dot(before.turn, after.turn)) > 0.5;
     bool is_apart = float(middle.at_s) > float(before.at_s) && float(middle.at_s) < float(after.at_s);
