@@ -92,7 +92,7 @@ TEST(MeasuredChain, MovesItsReferenceToo) {
 TEST(MeasuredChain, IsNotForOtherMethods) {
     World chain, mesh, terrain;
     chain.name = "trees.json", mesh.name = "duck.ovl", terrain.name = "valley.json";
-    chain.chain.emplace(), mesh.mesh.emplace();
+    chain.chains.emplace_back(), mesh.mesh.emplace();
     auto refusal = [](const char* method, const World& world) {
         std::vector<MethodSpec> specs = {*parse_method(method)};
         Result<void> checked = check_draws(specs, world);
