@@ -48,6 +48,8 @@ struct Placement {
     bool operator==(const Placement&) const = default;
 };
 Placement placement_of(const scene::Transform& transform);
+// Of each instance, and all of them moved by `whole`; of no instances `whole` itself.
+std::vector<Placement> placements_of(std::span<const scene::Transform> instances, const scene::Transform& whole);
 
 // Strains of levels, and who is in the frame, of one camera.
 class Selector {

@@ -195,7 +195,6 @@ Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& descr
     read.paper = with_error(read.paper, described.error_px);
     read.mesh = with_error(read.mesh, described.error_px);
     read.chain = with_error(discrete::defaults_of(discrete_variant_of(read.method)), described.error_px);
-    read.instances = layer.instances;
     for (const auto& [kind, value] : values) {
         if (read.method == Method::lod_sprite) lod_sprite::set(read.sprite, kind.name, value);
         if (read.method == Method::lod_sprite_paper) lod_sprite::paper::set(read.paper, kind.name, value);

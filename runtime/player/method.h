@@ -66,9 +66,8 @@ struct LayerMethod {
     lod_sprite::FrameOptions sprite;
     lod_sprite::paper::FrameOptions paper;
     caveclod::FrameOptions mesh;
-    discrete::FrameOptions chain;               // of `method`'s variant
-    std::vector<scene::Transform> instances{};  // of a chain
-    bool sets_chain = false;                    // something that only chains have
+    discrete::FrameOptions chain;  // of `method`'s variant
+    bool sets_chain = false;       // something that only chains have
 };
 Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described);
 

@@ -12,62 +12,93 @@ namespace overlook::player {
 
 namespace {
 
-Result<scene::Scene> read_described(const std::string& path) {
-    Result<scene::Scene> described = scene::read_scene(path);
-    if (!described) return described;
-    if (described->layers.size() > 1)
-        return impossible("{}: /layers/1: the player draws one thing at a time; leave one layer", path);
-    return described;
+Result<Thing> thing_in(const container::Reader& file) {
+    if (file.kind() == discrete::kKind) return Thing::chain;
+    if (file.kind() == caveclod::kKind) return Thing::mesh;
+    if (file.kind() == terrain::kKind) return Thing::terrain;
+    return bad_input("{}: a file of kind {} cannot be drawn; a baked terrain, mesh or chain of levels is wanted", file.name(),
+                     container::tag_text(file.kind()));
 }
 
-// What is drawn, by the kind of its file, if that is what the method draws.
-Result<std::unique_ptr<Subject>> read_subject(const std::string& asset, const std::string& path, LayerMethod& layer,
-                                              bool is_method_said, const std::optional<Streaming>& streaming) {
-    Result<container::Reader> file = container::Reader::open(asset);
-    if (!file) return tl::unexpected(file.error());
-    Thing thing = file->kind() == caveclod::kKind ? Thing::mesh : file->kind() == discrete::kKind ? Thing::chain : Thing::terrain;
-    if (thing == Thing::terrain && file->kind() != terrain::kKind) {
-        return bad_input("{}: a file of kind {} cannot be drawn; a baked terrain, mesh or chain of levels is wanted", asset,
-                         container::tag_text(file->kind()));
-    }
-    if (!is_method_said) layer.method = default_method(thing);
-    if (!draws(layer.method, thing)) {
-        return bad_input("{}: /layers/0/method: {} draws {}, and {} is a {}", path, name_of(layer.method),
-                         things_of(layer.method), asset, name_of(thing));
-    }
-    if (thing != Thing::chain && !layer.instances.empty())
+Result<void> check_method(const std::string& path, const LayerMethod& layer, const std::string& asset, Thing thing) {
+    if (draws(layer.method, thing)) return {};
+    return bad_input("{}: /layers/0/method: {} draws {}, and {} is a {}", path, name_of(layer.method), things_of(layer.method),
+                     asset, name_of(thing));
+}
+
+// A scene's only layer, which holds no chain.
+Result<std::unique_ptr<Subject>> read_subject(container::Reader file, Thing thing, const std::string& path,
+                                              const scene::Layer& described, const LayerMethod& layer,
+                                              const std::optional<Streaming>& streaming) {
+    const std::string asset = file.name();
+    if (!described.instances.empty())
         return bad_input("{}: /layers/0/instances: {} is a {}; chains of levels have instances", path, asset, name_of(thing));
-    if (thing != Thing::chain && layer.sets_chain)
+    if (layer.sets_chain)
         return bad_input("{}: /layers/0/settings: {} is a {}, of which discrete takes error_px alone", path, asset,
                          name_of(thing));
-    if (thing == Thing::chain) {
-        if (streaming) return impossible("{}: a chain of levels is read whole; --stream-memory is of terrains and meshes", asset);
-        return read_chain(*file, layer);
+    if (streaming && thing == Thing::mesh) return read_streamed_mesh(std::move(file), layer, *streaming);
+    if (streaming) return read_streamed_terrain(std::move(file), *streaming);
+    return thing == Thing::mesh ? read_mesh(file, layer) : read_terrain(file, layer);
+}
+
+// All layers of a scene, each a chain. assets: their files.
+Result<std::unique_ptr<Subject>> read_chain_layers(const std::string& path, const scene::Scene& described,
+                                                   std::span<const std::string> assets, const LayerMethod& layer) {
+    std::vector<ChainLayer> chains;
+    for (size_t i = 0; i < assets.size(); ++i) {
+        const scene::Layer &first = described.layers.front(), &here = described.layers[i];
+        Result<container::Reader> file = container::Reader::open(assets[i]);
+        if (!file) return tl::unexpected(file.error());
+        Result<Thing> thing = thing_in(*file);
+        if (!thing) return tl::unexpected(thing.error());
+        if (*thing != Thing::chain)
+            return impossible("{}: /layers/{}: {} is a {}; of scenes of several layers the player draws chains of levels alone",
+                              path, i, assets[i], name_of(*thing));
+        if (here.method != first.method || here.variant != first.variant || here.settings != first.settings)
+            return impossible(
+                "{}: /layers/{}: asks for another method or settings than /layers/0; chains in one picture are drawn "
+                "alike",
+                path, i);
+        chains.push_back({std::move(*file), discrete::placements_of(here.instances, here.transform)});
     }
-    if (streaming && thing == Thing::mesh) return read_streamed_mesh(std::move(*file), layer, *streaming);
-    if (streaming) return read_streamed_terrain(std::move(*file), *streaming);
-    return thing == Thing::mesh ? read_mesh(*file, layer) : read_terrain(*file, layer);
+    return read_chains(chains, layer.chain);
 }
 
 }  // namespace
 
 Result<Scene> Scene::read(const std::string& path, const std::optional<Streaming>& streaming) {
     Scene scene;
-    std::string asset = path;
-    if (path.ends_with(".json")) {
-        Result<scene::Scene> described = read_described(path);
+    std::vector<std::string> assets{path};
+    bool is_described = path.ends_with(".json");
+    if (is_described) {
+        Result<scene::Scene> described = scene::read_scene(path);
         if (!described) return tl::unexpected(described.error());
         scene.described_ = std::move(*described);
         Result<LayerMethod> layer = layer_method_of(path, scene.described_);
         if (!layer) return tl::unexpected(layer.error());
         scene.layer_ = *layer;
-        asset = scene::asset_path(path, scene.described_.layers.front());
+        assets.clear();
+        for (const scene::Layer& each : scene.described_.layers) assets.push_back(scene::asset_path(path, each));
     } else {
         scene.described_.layers.emplace_back();
     }
-    Result<std::unique_ptr<Subject>> subject = read_subject(asset, path, scene.layer_, path.ends_with(".json"), streaming);
+    Result<container::Reader> file = container::Reader::open(assets.front());
+    if (!file) return tl::unexpected(file.error());
+    Result<Thing> thing = thing_in(*file);
+    if (!thing) return tl::unexpected(thing.error());
+    if (!is_described) scene.layer_.method = default_method(*thing);
+    if (Result<void> draws = check_method(path, scene.layer_, assets.front(), *thing); !draws)
+        return tl::unexpected(draws.error());
+    bool is_of_chains = *thing == Thing::chain || assets.size() > 1;
+    if (is_of_chains && streaming)
+        return impossible("{}: a chain of levels is read whole; --stream-memory is of terrains and meshes", assets.front());
+    Result<std::unique_ptr<Subject>> subject =
+        is_of_chains ? read_chain_layers(path, scene.described_, assets, scene.layer_)
+                     : read_subject(std::move(*file), *thing, path, scene.described_.layers.front(), scene.layer_, streaming);
     if (!subject) return tl::unexpected(subject.error());
     scene.subject_ = std::move(*subject);
+    // Where chains stand tells their placements.
+    if (!is_of_chains) scene.transform_ = scene.described_.layers.front().transform;
     return scene;
 }
 

@@ -30,10 +30,12 @@ double cost_of(const Options& options, const FrameRecord& frame);
 
 class Scene {
   public:
-    // Reads a baked terrain, mesh or chain of levels, or (a name that ends in .json) a scene with one. streaming: it is read in
-    // parts; a terrain is then drawn by its triangles, a mesh by caveclod. Needs no OpenGL. Fails as scene::read_scene,
-    // layer_method_of, read_terrain, read_mesh and the two that stream, with Exit::impossible:
-    //   "a.json: /layers/1: the player draws one thing at a time; leave one layer"
+    // Reads a baked terrain, mesh or chain of levels, or (a name that ends in .json) a scene with one, or with several chains.
+    // streaming: it is read in parts; a terrain is then drawn by its triangles, a mesh by caveclod. Needs no OpenGL. Fails as
+    // scene::read_scene, layer_method_of, read_terrain, read_mesh, read_chains and the two that stream, with Exit::impossible:
+    //   "a.json: /layers/1: hills.ovl is a terrain; of scenes of several layers the player draws chains of levels alone"
+    //   "a.json: /layers/1: asks for another method or settings than /layers/0; chains in one picture are drawn alike"
+    //   "tree.ovl: a chain of levels is read whole; --stream-memory is of terrains and meshes"
     // and with Exit::bad_input:
     //   "a.json: /layers/0/method: caveclod draws meshes, and valley.ovl is a terrain"
     //   "a.json: /layers/0/settings: duck.ovl is a mesh, of which discrete takes error_px alone"
@@ -45,9 +47,10 @@ class Scene {
     Result<void> upload(const gl::SecondContextMaker& second = gl::second_context) { return subject_->upload(second); }
 
     const Subject& subject() const { return *subject_; }
-    // What the file says, or the defaults of a baked file by itself. One layer; its error_px setting is error_px.
+    // What the file says, or the defaults of a baked file by itself; the first layer's error_px setting is error_px.
     const scene::Scene& described() const { return described_; }
-    const scene::Transform& transform() const { return described_.layers.front().transform; }
+    // From the subject's frame into the scene's; none of chains, which stand where their placements say.
+    const scene::Transform& transform() const { return transform_; }
 
     // The method that the file asks for; if it does not say, terrain, caveclod or discrete.
     Method method() const { return layer_.method; }
@@ -57,6 +60,7 @@ class Scene {
 
   private:
     scene::Scene described_;
+    scene::Transform transform_;
     LayerMethod layer_;
     std::unique_ptr<Subject> subject_;
 };

@@ -1,4 +1,4 @@
-// What is flown over: a terrain, a mesh, or instances of a chain of levels.
+// What is flown over: a terrain, a mesh, or instances of chains of levels.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +33,17 @@ class Subject : public Ground {
     virtual Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) = 0;
 };
 
-// layer: its settings. Fail as terrain::read, caveclod::read and discrete::read, and with Exit::impossible as
-// caveclod::Mesh::make.
+// layer: its settings. Fail as terrain::read and caveclod::read, and with Exit::impossible as caveclod::Mesh::make.
 Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer);
 Result<std::unique_ptr<Subject>> read_mesh(const container::Reader& file, const LayerMethod& layer);
-Result<std::unique_ptr<Subject>> read_chain(const container::Reader& file, const LayerMethod& layer);
+
+// A chain of levels in its file, and where it stands in the scene: at least once.
+struct ChainLayer {
+    container::Reader file;
+    std::vector<discrete::Placement> placements;
+};
+// All in one picture. options: how they change their levels. Fails as discrete::read.
+Result<std::unique_ptr<Subject>> read_chains(std::span<const ChainLayer> layers, const discrete::FrameOptions& options);
 
 // How something is read in parts.
 struct Streaming {

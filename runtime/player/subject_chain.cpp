@@ -1,4 +1,4 @@
-// Instances of a chain of levels in the player, drawn by any of discrete's variants.
+// Instances of chains of levels in the player, drawn by any of discrete's variants.
 
 #include <algorithm>
 #include <cassert>
@@ -17,23 +17,29 @@ constexpr double kOverviewFov_deg = 42, kOverviewHeading_deg = -30, kOverviewPit
 constexpr double kNearShare = 1e-5;        // of one thing's size; depths are reversed floats, so this costs no precision
 constexpr double kLeastSpeedShare = 0.05;  // of one thing's size in a second
 
+// A chain and where it stands.
+struct Stood {
+    std::unique_ptr<const discrete::Chain> chain;  // stays where it is, since its drawing knows it
+    std::vector<discrete::Placement> placements;
+    std::optional<discrete::Drawing> drawing;
+};
+
 class ChainSubject : public Subject {
   public:
-    ChainSubject(discrete::Chain chain, const LayerMethod& layer) : chain_(std::move(chain)), options_(layer.chain) {
-        for (const scene::Transform& instance : layer.instances) placements_.push_back(discrete::placement_of(instance));
-        if (placements_.empty()) placements_.emplace_back();
-        for (const discrete::Placement& placement : placements_) {
-            glm::dvec3 middle_m = placement.at(chain_.middle_m);
-            double radius_m = chain_.radius_m * placement.scale;
+    ChainSubject(std::vector<Stood> chains, const discrete::FrameOptions& options)
+        : chains_(std::move(chains)), options_(options) {
+        for_each([&](const glm::dvec3& middle_m, double radius_m) {
             lowest_m_ = glm::min(lowest_m_, middle_m - radius_m), highest_m_ = glm::max(highest_m_, middle_m + radius_m);
             least_radius_m_ = std::min(least_radius_m_, std::max(radius_m, 1e-6));
-        }
+        });
     }
 
     Result<void> upload(const gl::SecondContextMaker&) override {
-        Result<discrete::Drawing> drawing = discrete::Drawing::make(chain_);
-        if (!drawing) return tl::unexpected(drawing.error());
-        drawing_.emplace(std::move(*drawing));
+        for (Stood& each : chains_) {
+            Result<discrete::Drawing> drawing = discrete::Drawing::make(*each.chain);
+            if (!drawing) return tl::unexpected(drawing.error());
+            each.drawing.emplace(std::move(*drawing));
+        }
         return {};
     }
 
@@ -53,19 +59,19 @@ class ChainSubject : public Subject {
     Thing thing() const override { return Thing::chain; }
 
     std::optional<double> height_m(double, double) const override { return std::nullopt; }
+    // Of a thing that is all round the place, such as ground, a sphere cannot say how near it is: it counts if there is no other.
     double distance_m(const glm::dvec3& place_m) const override {
         double nearest_m = std::numeric_limits<double>::infinity();
-        for (const discrete::Placement& placement : placements_) {
-            double away_m = glm::distance(place_m, placement.at(chain_.middle_m)) - chain_.radius_m * placement.scale;
-            nearest_m = std::min(nearest_m, std::max(away_m, 0.0));
-        }
-        return nearest_m;
+        for_each([&](const glm::dvec3& middle_m, double radius_m) {
+            double away_m = glm::distance(place_m, middle_m) - radius_m;
+            if (away_m > 0) nearest_m = std::min(nearest_m, away_m);
+        });
+        return std::isinf(nearest_m) ? 0 : nearest_m;
     }
     double step_m() const override { return least_radius_m_ / 16; }
     double least_speed_m_s() const override { return kLeastSpeedShare * least_radius_m_; }
 
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
-        assert(drawing_.has_value());
         if (Result<void> ready = make_ready(style); !ready) return tl::unexpected(ready.error());
         FrameRecord record;
         record.asked_error_px = style.error_px;
@@ -88,6 +94,14 @@ class ChainSubject : public Subject {
     }
 
   private:
+    // what(middle_m, radius_m) of the sphere round each thing.
+    template <class What>
+    void for_each(const What& what) const {
+        for (const Stood& each : chains_)
+            for (const discrete::Placement& placement : each.placements)
+                what(placement.at(each.chain->middle_m), each.chain->radius_m * placement.scale);
+    }
+
     // With the method and the error of this frame.
     Result<void> make_ready(const FrameStyle& style) {
         discrete::Variant variant = discrete_variant_of(style.method);
@@ -97,28 +111,32 @@ class ChainSubject : public Subject {
         bool is_same = frames_ != nullptr && frames_->director().options().variant == variant;
         if (is_same && frames_->director().options().select.error_px == wanted.select.error_px) return {};
         if (frames_ != nullptr) return frames_->change(wanted);
-        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(*drawing_, placements_, wanted);
+        std::vector<discrete::Stand> stands;
+        for (const Stood& each : chains_) stands.push_back({&*each.drawing, each.placements});
+        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(stands, wanted);
         if (!frames) return tl::unexpected(frames.error());
         frames_ = std::move(*frames);
         return {};
     }
 
-    const discrete::Chain chain_;
+    std::vector<Stood> chains_;
     discrete::FrameOptions options_;
-    std::vector<discrete::Placement> placements_;
     glm::dvec3 lowest_m_{std::numeric_limits<double>::infinity()}, highest_m_{-std::numeric_limits<double>::infinity()};
     double least_radius_m_ = std::numeric_limits<double>::infinity();
-    std::optional<discrete::Drawing> drawing_;
     std::unique_ptr<discrete::FrameDrawer> frames_;
     double clip_s_ = 0;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Subject>> read_chain(const container::Reader& file, const LayerMethod& layer) {
-    Result<discrete::Chain> chain = discrete::read(file);
-    if (!chain) return tl::unexpected(chain.error());
-    return std::make_unique<ChainSubject>(std::move(*chain), layer);
+Result<std::unique_ptr<Subject>> read_chains(std::span<const ChainLayer> layers, const discrete::FrameOptions& options) {
+    std::vector<Stood> chains;
+    for (const ChainLayer& layer : layers) {
+        Result<discrete::Chain> chain = discrete::read(layer.file);
+        if (!chain) return tl::unexpected(chain.error());
+        chains.push_back({std::make_unique<const discrete::Chain>(std::move(*chain)), layer.placements, {}});
+    }
+    return std::make_unique<ChainSubject>(std::move(chains), options);
 }
 
 }  // namespace overlook::player

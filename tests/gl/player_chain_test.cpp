@@ -82,6 +82,34 @@ TEST_F(ChainPlayer, ShowsTheWholeOfItWhereNobodySaysWhereFrom) {
     EXPECT_EQ(report()["frames"].back()["instances_in_view"], 1);
 }
 
+TEST_F(ChainPlayer, DrawsSeveralChainsAsTheyStandInTheScene) {
+    // The same nine in one layer, and in two that are moved back to where they were.
+    ASSERT_EQ(play(flown("discrete", "one.png") + " --frames 6 --headless"), 0) << output_;
+    uint64_t triangles = report()["frames"].back()["triangles"];
+    std::string near, far;
+    for (int i = 0; i < 9; ++i)
+        (i < 4 ? near : far) +=
+            fmt::format("{}{{\"translation_m\": [{}, {}, 0]}}", i % 4 == 0 && i < 8 ? "" : ", ", i < 4 ? i : i - 100, 2.8 * i);
+    std::string asset = R"({"asset": "chain.ovl", "method": "discrete", )";
+    write("scene.json", fmt::format(R"({{"version": 1, "layers": [{}"instances": [{}]}},
+            {}"transform": {{"translation_m": [100, 0, 0]}}, "instances": [{}]}}]}})",
+                                    asset, near, asset, far));
+    ASSERT_EQ(play(flown("discrete", "two.png") + " --frames 6 --headless"), 0) << output_;
+    EXPECT_EQ(report()["frames"].back()["triangles"], triangles);
+    EXPECT_EQ(report()["frames"].back()["instances_in_view"], 9);
+    EXPECT_TRUE(bytes("one.png") == bytes("two.png"));
+
+    write("mixed.json", R"({"version": 1, "layers": [{"asset": "chain.ovl", "method": "discrete"},
+      {"asset": "hills.ovl", "method": "discrete"}]})");
+    EXPECT_EQ(play(in_folder("mixed.json") + " --headless"), 5);
+    EXPECT_NE(output_.find("/layers/1: "), std::string::npos) << output_;
+    EXPECT_NE(output_.find("the player draws chains of levels alone"), std::string::npos) << output_;
+    write("mixed.json", R"({"version": 1, "layers": [{"asset": "chain.ovl", "method": "discrete"},
+      {"asset": "chain.ovl", "method": "discrete:switch"}]})");
+    EXPECT_EQ(play(in_folder("mixed.json") + " --headless"), 5);
+    EXPECT_NE(output_.find("/layers/1: asks for another method"), std::string::npos) << output_;
+}
+
 TEST_F(ChainPlayer, RefusesInOneLine) {
     write("hills.json", scene("hills.ovl", R"("method": "discrete", )"));
     EXPECT_EQ(play(in_folder("hills.json") + " --headless"), 3);

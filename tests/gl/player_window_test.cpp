@@ -112,7 +112,9 @@ TEST_F(Player, RefusesScenesThatItCannotDraw) {
     };
     for (const Case& c : std::initializer_list<Case>{
              {R"({"asset":"hills.ovl","method":"terrain"},{"asset":"hills.ovl","method":"terrain"})", 5,
-              "scene.json: /layers/1: the player draws one thing at a time; leave one layer\n"},
+              "/layers/0: " + folder_.string() +
+                  "/hills.ovl is a terrain; of scenes of several layers the player draws chains of "
+                  "levels alone\n"},
              {R"({"asset":"hills.ovl","method":"wang-ldi"})", 5,
               "scene.json: /layers/0/method: the player cannot draw wang-ldi yet; it draws terrain, lod-sprite, caveclod and "
               "discrete\n"},

@@ -84,12 +84,6 @@ Result<double> read_layer(const scene::Scene& scene, const std::string& path, si
     return *near_m * layer.transform.scale;
 }
 
-discrete::Placement placed(const scene::Transform& whole, const scene::Transform& instance) {
-    discrete::Placement outer = discrete::placement_of(whole), inner = discrete::placement_of(instance);
-    return {outer.at(inner.translation_m), outer.cosine * inner.cosine - outer.sine * inner.sine,
-            outer.sine * inner.cosine + outer.cosine * inner.sine, outer.scale * inner.scale};
-}
-
 }  // namespace
 
 Result<World> read_world(const std::string& path) {
@@ -131,8 +125,7 @@ ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> 
     ChainWorld made;
     made.chain = std::make_unique<discrete::Chain>(std::move(chain));
     made.facts = discrete::facts_of(*made.chain);
-    for (const scene::Transform& instance : instances) made.placements.push_back(placed(whole, instance));
-    if (instances.empty()) made.placements.push_back(discrete::placement_of(whole));
+    made.placements = discrete::placements_of(instances, whole);
     return made;
 }
 
