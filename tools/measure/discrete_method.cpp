@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "runtime/discrete/draw_frames.h"
+#include "runtime/view/error_budget.h"
 
 namespace overlook::measure {
 namespace {
@@ -27,17 +28,32 @@ discrete::FrameOptions options_of(const MethodSpec& spec) {
 
 class Chain : public Method {
   public:
-    Chain(World& world, const MethodSpec& spec) : world_(world) {
+    Chain(World& world, const MethodSpec& spec) : world_(world), asked_(options_of(spec)) {
         std::vector<discrete::Stand> stands;
         for (const ChainWorld& one : world.chains) stands.push_back({&*one.drawing, one.placements});
-        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(stands, options_of(spec));
+        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(stands, asked_);
         assert(frames);
         frames_ = std::move(*frames);
     }
 
     void decide(const view::Camera& camera, uint32_t frame) override {
+        if (controller_) ask_for(controller_->error_px());
         frames_->decide(camera, double(frame - last_frame_) * world_.step_s, double(frame) * world_.step_s);
+        if (controller_) controller_->frame_done(double(frames_->counts().triangle_count));
         last_frame_ = frame;
+    }
+
+    // Within a budget the error asked for goes up and down with what frames cost.
+    bool set_triangles(double triangles) override {
+        view::ErrorBudget budget{triangles, asked_.select.error_px, false};
+        if (triangles <= 0) {
+            controller_.reset();
+        } else if (controller_) {
+            controller_->set_budget(budget);
+        } else {
+            controller_.emplace(budget);
+        }
+        return true;
     }
 
     Counters draw(const gl::Target& target) override {
@@ -58,7 +74,17 @@ class Chain : public Method {
     }
 
   private:
+    void ask_for(double error_px) {
+        discrete::FrameOptions options = asked_;
+        options.select.error_px = error_px;
+        Result<void> changed = frames_->change(options);
+        assert(changed);
+        static_cast<void>(changed);
+    }
+
     World& world_;
+    discrete::FrameOptions asked_;
+    std::optional<view::ErrorController> controller_;  // within a budget
     std::unique_ptr<discrete::FrameDrawer> frames_;
     uint32_t last_frame_ = 0;
 };

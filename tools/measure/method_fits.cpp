@@ -18,6 +18,10 @@ bool draws_chains(const MethodSpec& spec) {
     return spec.name == "discrete" || is_floor(spec);
 }
 
+bool is_of_chains_alone(const MethodSpec& spec) {
+    return draws_chains(spec) && !draws_meshes(spec);
+}
+
 Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) {
     for (const MethodSpec& spec : specs) {
         bool draws = world.is_chain() ? draws_chains(spec) : world.is_mesh() ? draws_meshes(spec) : draws_terrains(spec);

@@ -49,15 +49,10 @@ std::vector<MethodKind> make_kinds() {
     static const std::vector<SettingKind> kOwn = with_samples(caveclod::setting_kinds(caveclod::Variant::own)),
                                           kOthers = with_samples(caveclod::setting_kinds(caveclod::Variant::paper)),
                                           kBlocks = with_streaming(kOwn), kTiles = with_streaming(kTileSettings);
-    std::vector<MethodKind> kinds = {{"terrain", "", kTerrainSettings},
-                                     {"terrain", "hard", kHardSettings},
-                                     {"terrain", "streamed", kTiles},
-                                     {"lod-sprite", "", kSprite},
-                                     {"lod-sprite", "paper", kSpritePaper},
-                                     {"caveclod", "", kOwn},
-                                     {"caveclod", "paper", kOthers},
-                                     {"caveclod", "shared", kOthers},
-                                     {"caveclod", "streamed", kBlocks}};
+    std::vector<MethodKind> kinds = {
+        {"terrain", "", kTerrainSettings}, {"terrain", "hard", kHardSettings},    {"terrain", "streamed", kTiles},
+        {"lod-sprite", "", kSprite},       {"lod-sprite", "paper", kSpritePaper}, {"caveclod", "", kOwn},
+        {"caveclod", "paper", kOthers},    {"caveclod", "shared", kOthers},       {"caveclod", "streamed", kBlocks}};
     static std::vector<std::vector<SettingKind>> levels;
     for (const DiscreteVariant& one : discrete_variants()) levels.push_back(with_samples(discrete::setting_kinds(one.variant)));
     kinds.push_back({"discrete", "", levels.front()});

@@ -50,6 +50,7 @@ double budget_of(const MethodSpec& spec);
 bool draws_terrains(const MethodSpec& spec);
 bool draws_meshes(const MethodSpec& spec);
 bool draws_chains(const MethodSpec& spec);
+bool is_of_chains_alone(const MethodSpec& spec);  // discrete:fsi and its like
 // Fails with Exit::impossible:
 //   "--method caveclod: it draws meshes, and valley.json holds a terrain"
 //   "--method discrete: search is of chains of levels, and duck.ovl holds a mesh"

@@ -24,6 +24,8 @@ constexpr Member kCaseMembers[] = {
     {"flight", Kind::text},
     {"mesh_scene", Kind::text},
     {"mesh_flight", Kind::text},
+    {"chain_scene", Kind::text},
+    {"chain_flight", Kind::text},
     {"settings", Kind::object},
     {"gates", Kind::array, true, 1, 8},
     {"methods", Kind::array, true, 1, 5},
@@ -68,6 +70,7 @@ constexpr std::string_view kFigures[] = {
     "path_difference_grey",
 };
 constexpr std::string_view kMeshMethods[] = {"lod-sprite", "caveclod", "discrete"};  // draw meshes, the first terrains as well
+constexpr std::string_view kChainMethod = "discrete";                                // draws chains as well
 constexpr std::string_view kSides[] = {"all", "geometry", "image"};
 
 template <class Names>
@@ -153,9 +156,11 @@ void check_whole(Form& form, const Case& made) {
         if (!is_one_of(made.methods, run.value->text)) form.fail(run, run.value->text + " is not among the case's methods");
     }
     for (const Node& run : form.items(runs)) {
-        bool is_of_mesh = is_one_of(kMeshMethods, run.value->text);
-        bool has_scene = !made.scene.empty() || (is_of_mesh && !made.mesh_scene.empty());
-        bool has_flight = !made.flight.empty() || (is_of_mesh && !made.mesh_flight.empty());
+        bool is_of_mesh = is_one_of(kMeshMethods, run.value->text), is_of_chain = run.value->text == kChainMethod;
+        bool has_scene =
+            !made.scene.empty() || (is_of_mesh && !made.mesh_scene.empty()) || (is_of_chain && !made.chain_scene.empty());
+        bool has_flight =
+            !made.flight.empty() || (is_of_mesh && !made.mesh_flight.empty()) || (is_of_chain && !made.chain_flight.empty());
         if (!has_scene || !has_flight) form.fail(runs, "a case that runs needs a scene and a flight");
     }
 }
@@ -165,6 +170,12 @@ void check_whole(Form& form, const Case& made) {
 Case for_meshes(Case each) {
     if (!each.mesh_scene.empty()) each.scene = each.mesh_scene;
     if (!each.mesh_flight.empty()) each.flight = each.mesh_flight;
+    return each;
+}
+
+Case for_chains(Case each) {
+    each.scene = each.chain_scene;
+    if (!each.chain_flight.empty()) each.flight = each.chain_flight;
     return each;
 }
 
@@ -191,6 +202,8 @@ Result<Case> parse_case(std::string_view text, const std::string& name) {
     made.flight = form.text(form.root(), "flight", "");
     made.mesh_scene = form.text(form.root(), "mesh_scene", "");
     made.mesh_flight = form.text(form.root(), "mesh_flight", "");
+    made.chain_scene = form.text(form.root(), "chain_scene", "");
+    made.chain_flight = form.text(form.root(), "chain_flight", "");
     made.settings = read_settings(form, form.member(form.root(), "settings"));
     for (const Node& gate : form.items(form.member(form.root(), "gates"))) made.gates.push_back(read_gate(form, gate));
     made.methods = read_methods(form, form.member(form.root(), "methods"));
@@ -209,7 +222,8 @@ Result<std::vector<Case>> read_cases(const std::string& folder) {
         Result<Case> made = parse_case({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
         if (!made) return tl::unexpected(made.error());
         if (made->number != fmt::format("S{:02}", i)) return bad_input("{}: is case {}", path, made->number);
-        for (std::string* path_in : {&made->scene, &made->flight, &made->mesh_scene, &made->mesh_flight}) {
+        for (std::string* path_in :
+             {&made->scene, &made->flight, &made->mesh_scene, &made->mesh_flight, &made->chain_scene, &made->chain_flight}) {
             if (!path_in->empty()) *path_in = folder + "/" + *path_in;
         }
         cases.push_back(std::move(*made));

@@ -3,6 +3,7 @@
 //     {"version": 1, "number": "S16", "what": "every seventh frame dropped",
 //      "scene": "../scenes/sample.json", "flight": "../flights/s01.json",     paths relative to the case's file
 //      "mesh_scene": "../scenes/sample-mesh.json", "mesh_flight": "...",      for methods that draw meshes; may be left out
+//      "chain_scene": "../scenes/chains.json", "chain_flight": "...",         for discrete:fsi and its like; may be left out
 //      "settings": {"drop_every": 7},
 //      "gates": [{"figure": "pop_index_ratio", "most": 1.1}],
 //      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"],
@@ -54,12 +55,17 @@ struct Case {
     std::string note{};                // what is known of a gate that is missed; empty = nothing
     // Of methods that draw meshes, where those fly over something of their own; empty = as the others.
     std::string mesh_scene{}, mesh_flight{};
+    // Of methods that draw chains of levels and nothing else; empty = the case is not run for them.
+    std::string chain_scene{}, chain_flight{};
 };
 
 // The case as methods that draw meshes fly it.
 Case for_meshes(Case each);
 
-// Whether it runs for methods that draw meshes and for no others.
+// The case as methods that draw chains alone fly it.
+Case for_chains(Case each);
+
+// Whether it runs for no method of terrains.
 bool is_of_meshes_alone(const Case& each);
 
 // The names of the figures that a gate may hold.

@@ -19,6 +19,11 @@ constexpr uint32_t kSettled = 20;     // frames after which a budget has to be k
 constexpr double kFirstBudget = 0.8;  // of the triangles of the first frame at the error asked
 constexpr double kBudgetBand = 0.05;  // a budget is met within this share of it
 
+// Whether what is decided is a cut of a terrain, which depends on the camera alone.
+bool is_cut(const Stage& stage, const MethodSpec& spec) {
+    return stage.world.terrain != nullptr && !is_image(spec);
+}
+
 struct Switching {
     uint64_t came_or_went = 0, switches = 0, while_still = 0;
     double greatest_px = 0;
@@ -94,7 +99,7 @@ Result<Finding> key_switches(const Stage& stage, const MethodSpec& spec, const s
     return finding;
 }
 
-// What switches in a mesh: splits and collapses, and levels exchanged for the whole of it.
+// What switches in a mesh: splits and collapses, and levels exchanged for the whole of it or of an instance.
 Result<Finding> operations_at_rest(const Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
                                    double step_s) {
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, samples_of(spec));
@@ -116,9 +121,9 @@ Result<Finding> operations_at_rest(const Stage& stage, const MethodSpec& spec, c
     finding.figures["switches_after_first_second"] = double(switches);
     finding.frames = uint32_t(cameras.size());
     finding.sentence = fmt::format(
-        "{} splits and collapses in the first second and {} after it, {} of these while the camera stood still; the last one in "
+        "{} {} in the first second and {} after it, {} of these while the camera stood still; the last one in "
         "frame {}.",
-        first_second, switches, while_still, last);
+        stage.world.is_chain() ? "changes of level" : "splits and collapses", first_second, switches, while_still, last);
     Result<Shot> shot = shot_of(stage, spec, cameras[last], last);
     if (!shot) return tl::unexpected(shot.error());
     finding.worst = std::move(*shot);
@@ -213,9 +218,10 @@ Result<std::vector<Finding>> run_jitter(Stage& stage, const Case&, const scene::
     std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
-        if (is_image(spec) || stage.world.is_mesh()) {
-            Result<Finding> finding = stage.world.is_mesh() ? operations_at_rest(stage, spec, cameras, flight.step_s)
-                                                            : key_switches(stage, spec, cameras, flight.step_s);
+        if (!is_cut(stage, spec)) {
+            Result<Finding> finding = is_image(spec) && !stage.world.is_mesh()
+                                          ? key_switches(stage, spec, cameras, flight.step_s)
+                                          : operations_at_rest(stage, spec, cameras, flight.step_s);
             if (!finding) return tl::unexpected(finding.error());
             findings.push_back(std::move(*finding));
             continue;
@@ -282,7 +288,7 @@ Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, c
     size_t middle = cameras.size() / 2;
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
-        if (is_image(spec) || stage.world.is_mesh()) {
+        if (!is_cut(stage, spec)) {
             Result<Finding> finding = halved_budget_by_method(stage, spec, cameras, each.settings.budget_share);
             if (!finding) return tl::unexpected(finding.error());
             findings.push_back(std::move(*finding));

@@ -72,11 +72,11 @@ Result<Ridge> fly_ridge(Stage& stage, const MethodSpec& spec, const std::vector<
     return ridge;
 }
 
-// How long a transition takes: of keys, or of splits and collapses.
+// How long a transition takes: of keys, of splits and collapses, or of levels.
 uint32_t transition_frames_of(const MethodSpec& spec, double step_s) {
     for (const auto& [name, value] : spec.settings) {
         if (name == "fade-frames") return uint32_t(value);
-        if (name == "glide-s") return uint32_t(std::ceil(value / step_s - 1e-6));
+        if (name == "glide-s" || name == "fade-s") return uint32_t(std::ceil(value / step_s - 1e-6));
     }
     return 0;
 }
@@ -201,8 +201,9 @@ Result<Finding> turn_back(Stage& stage, const MethodSpec& spec, const scene::Fli
     Turn turn = turn_of(event, fade, uint32_t(cameras.size()));
     Result<Watched> watched = Watched::make(stage, spec);
     if (!watched) return tl::unexpected(watched.error());
-    // A mesh goes on changing as long as the camera moves.
-    uint32_t last_change = event, last_key = stage.world.is_mesh() ? std::max(event, turn.stop) : event, new_keys = 0, over = 0;
+    // A mesh goes on changing as long as the camera moves, and so do chains.
+    bool has_keys = is_image(spec) && !stage.world.is_mesh();
+    uint32_t last_change = event, last_key = !has_keys ? std::max(event, turn.stop) : event, new_keys = 0, over = 0;
     ImageRgb8 before;
     for (uint32_t step = 0; step < turn.frames.size(); ++step) {
         Result<uint64_t> events = watched->next(cameras[turn.frames[step]], step, step + kBefore >= event);
@@ -227,8 +228,10 @@ Result<Finding> turn_back(Stage& stage, const MethodSpec& spec, const scene::Fli
         "the "
         "still camera changes last in frame {}. Such frames after it: {}. The greatest unrest above full geometry's is "
         "{:.4f} luma, in frame {}, tile {}, {}.",
-        stage.world.is_mesh() ? "The mesh changes" : "A key takes over", event, fade, turn.stop, turn.leaves + 1, last_change,
-        new_keys, pop.excess, pop.frame, pop.tile_column, pop.tile_row);
+        stage.world.is_chain() ? "A level changes"
+        : has_keys             ? "A key takes over"
+                               : "The mesh changes",
+        event, fade, turn.stop, turn.leaves + 1, last_change, new_keys, pop.excess, pop.frame, pop.tile_column, pop.tile_row);
     return finding;
 }
 

@@ -169,7 +169,7 @@ Result<std::vector<Finding>> run_dolly(Stage& stage, const Case&, const scene::F
             run.pop.excess, run.pop.frame, run.pop.tile_column, run.pop.tile_row, run.pop.method_median, run.pop.floor_median);
         if (is_image(specs[i])) {
             finding.sentence += events_sentence(run);
-        } else if (!stage.world.is_mesh()) {
+        } else if (stage.world.terrain != nullptr) {
             Result<double> change = change_by_triangles(stage, specs[i], cameras);
             if (!change) return tl::unexpected(change.error());
             finding.figures["change_by_triangles"] = *change;
@@ -188,10 +188,11 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
     for (size_t i = 0; i < specs.size(); ++i) {
         Finding& finding = (*findings)[i];
         double worst_px = 0, above = 0;
+        bool is_measured = stage.world.terrain != nullptr && !is_image(specs[i]);
         std::vector<double> errors_px = finding.promised_px;
         if (stage.world.is_mesh()) {
             errors_px = displacements_in_row(stage, specs[i], cameras);
-        } else if (!is_image(specs[i])) {
+        } else if (is_measured) {
             errors_px.clear();
             for (const view::Camera& camera : cameras) errors_px.push_back(displacement_of(stage, specs[i], camera).measured_px);
         }
@@ -201,7 +202,11 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
         }
         finding.figures["frames_above_twice_asked_error"] = above;
         finding.sentence =
-            is_image(specs[i])
+            stage.world.is_chain() ? fmt::format(
+                                         "By its levels' proven bounds nothing is drawn farther than {:.3f} px from its "
+                                         "place, {} px asked.",
+                                         worst_px, stage.asked_px)
+            : is_image(specs[i])
                 ? fmt::format("It promises no worse than {:.3f} px for 99 % of a frame's pixels, {} px asked; not measured.",
                               worst_px, stage.asked_px)
                 : fmt::format("No source sample is drawn farther than {:.3f} px from its place, {} px asked.", worst_px,
@@ -229,7 +234,7 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
                 longest, stage.asked_px);
             continue;
         }
-        if (is_image(specs[i])) {
+        if (is_image(specs[i]) || stage.world.is_chain()) {
             std::unique_ptr<Method> method = stage.make(specs[i], stage.world);
             uint32_t frame = 0, longest = 0;
             for (const view::Camera& camera : arrivals) {

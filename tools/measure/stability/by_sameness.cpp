@@ -27,13 +27,38 @@ uint64_t changed_pixels(const ImageRgb8& a, const ImageRgb8& b, double least) {
     return count;
 }
 
-// The camera of the terrain's frame when both the world and the flight have moved by move_m along x and y.
-view::Camera moved(const view::Camera& camera, scene::Transform transform, double move_m) {
+// Of chains, which stand where their placements say: those are moved by move_m along x and y till it goes.
+class MovedPlacements {
+  public:
+    MovedPlacements(World& world, double move_m) : world_(world) {
+        for (ChainWorld& one : world_.chains) {
+            home_.push_back(one.placements);
+            for (discrete::Placement& each : one.placements) each.translation_m += glm::dvec3(move_m, move_m, 0);
+        }
+    }
+    ~MovedPlacements() {
+        for (size_t i = 0; i < world_.chains.size(); ++i) world_.chains[i].placements = std::move(home_[i]);
+    }
+    MovedPlacements(const MovedPlacements&) = delete;
+    MovedPlacements& operator=(const MovedPlacements&) = delete;
+
+  private:
+    World& world_;
+    std::vector<std::vector<discrete::Placement>> home_;
+};
+
+// Made where the world is moved by move_m, if it holds chains; of others, whose cameras are what moves, at home.
+std::unique_ptr<Method> make_moved(Stage& stage, const MethodSpec& spec, double move_m) {
+    MovedPlacements moved(stage.world, move_m);
+    return stage.make(spec, stage.world);
+}
+
+// The camera of the thing's frame when both the world and the flight have moved by move_m along x and y.
+view::Camera moved(const view::Camera& camera, scene::Transform transform, double move_m, bool holds_chains) {
     view::Camera outside = view::camera_out_of(transform, camera);
     outside.position_m.x += move_m;
     outside.position_m.y += move_m;
-    transform.translation_m[0] += move_m;
-    transform.translation_m[1] += move_m;
+    if (!holds_chains) transform.translation_m[0] += move_m, transform.translation_m[1] += move_m;
     return view::camera_into(transform, outside);
 }
 
@@ -127,12 +152,12 @@ Result<std::vector<Finding>> run_moved_world(Stage& stage, const Case& each, con
         Finding finding;
         double worst = 0;
         for (double move_m : each.settings.world_moves_m) {
-            std::unique_ptr<Method> at_home = stage.make(spec, stage.world), far_away = stage.make(spec, stage.world);
+            std::unique_ptr<Method> at_home = stage.make(spec, stage.world), far_away = make_moved(stage, spec, move_m);
             double worst_here = 0;
             for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
                 Result<ImageRgb8> home = draw_once(*at_home, cameras[frame], frame, samples_of(spec));
                 if (!home) return tl::unexpected(home.error());
-                view::Camera camera = moved(cameras[frame], stage.world.transform, move_m);
+                view::Camera camera = moved(cameras[frame], stage.world.transform, move_m, stage.world.is_chain());
                 Result<ImageRgb8> away = draw_once(*far_away, camera, frame, samples_of(spec));
                 if (!away) return tl::unexpected(away.error());
                 uint64_t pixels = uint64_t(home->width) * home->height;
@@ -153,6 +178,14 @@ Result<std::vector<Finding>> run_moved_world(Stage& stage, const Case& each, con
 
 namespace {
 
+// Levels of chains by distance, which no size changes: a change of level on its way is no stale picture.
+MethodSpec size_blind(MethodSpec spec) {
+    if (!is_of_chains_alone(spec)) return spec;
+    for (auto& [name, value] : spec.settings)
+        if (name == "by") value = double(discrete::Criterion::distance);
+    return spec;
+}
+
 view::Camera sized(view::Camera camera, const Stage& stage, double share) {
     camera.width_px = uint32_t(std::max(1.0, std::round(stage.width_px * share)));
     camera.height_px = uint32_t(std::max(1.0, std::round(stage.height_px * share)));
@@ -167,7 +200,8 @@ Result<std::vector<Finding>> run_resize(Stage& stage, const Case& each, const sc
     const std::vector<double>& shares = each.settings.resize_shares;
     std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
     std::vector<Finding> findings;
-    for (const MethodSpec& spec : specs) {
+    for (const MethodSpec& asked : specs) {
+        MethodSpec spec = size_blind(asked);
         Finding finding;
         std::unique_ptr<Method> method = stage.make(spec, stage.world);
         uint64_t stale = 0, same_hashes = 0;

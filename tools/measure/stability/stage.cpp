@@ -13,7 +13,7 @@ bool is_image(const MethodSpec& spec) {
 }
 
 bool has_history(const MethodSpec& spec) {
-    return is_image(spec) || spec.name == "caveclod";
+    return is_image(spec) || spec.name == "caveclod" || is_of_chains_alone(spec);
 }
 
 Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry) {

@@ -53,7 +53,8 @@ enum class Pick {
 // Whether a method shows pictures again: what a frame is then depends on the frames before it, and flights are flown in their
 // steps, the first stage.frames of them, where others may be taken frame by frame.
 bool is_image(const MethodSpec& spec);
-// Whether a frame depends on the frames before it: as above, and of refinement that goes on from frame to frame.
+// Whether a frame depends on the frames before it: as above, of refinement that goes on from frame to frame, and of changes of
+// level, which take their time or wait for a reason.
 bool has_history(const MethodSpec& spec);
 Pick pick_of(std::span<const MethodSpec> specs, Pick of_geometry);  // specs: all with a history or none
 std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& flight, Pick pick);
@@ -66,7 +67,7 @@ uint32_t samples_of(const MethodSpec& spec);
 Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame);
 
 // One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods, all of methods of
-// meshes, or neither.
+// meshes, all of methods of chains, or none of them.
 using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged on frames beside the reference: S01 and S09, S03, S04, S06, S07, S08, S16.
@@ -83,6 +84,9 @@ Result<std::vector<Finding>> run_moved_world(Stage&, const Case&, const scene::F
 Result<std::vector<Finding>> run_resize(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_cameras(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// S13: chains of levels that are coplanar or do not match. Time stands still in mid-transition, and goes on until it is over.
+Result<std::vector<Finding>> run_mismatched(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases of methods that show pictures again: S05, S15.
 Result<std::vector<Finding>> run_ridge(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);

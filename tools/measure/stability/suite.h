@@ -45,8 +45,8 @@ using WorldOf = std::function<Result<World*>(const Case&)>;
 Result<SuiteResult> run_suite(Stage& stage, const std::vector<Case>& cases, std::span<const MethodSpec> specs,
                               const std::function<void(double)>& done, const WorldOf& world_of = {});
 
-// terrain:hard and discrete, which exchange their levels at once, the papers' own forms, and caveclod:shared: what the remedied
-// forms are seen beside; their misses are shown and not held against them.
+// terrain:hard and discrete, which exchange their levels at once, the papers' own forms, caveclod:shared, and what
+// discrete:fsi is compared with: what the remedied forms are seen beside; their misses are shown and not held against them.
 bool is_baseline(const MethodSpec& spec);
 
 // Whether all but the baselines kept their gates.
