@@ -90,6 +90,8 @@ struct Fault {
     const char* text = nullptr;
     explicit operator bool() const { return text != nullptr; }
 };
+constexpr Fault kNoFault{};
+constexpr Fault kCutShort{10, "ends before its rows do"};
 
 // A hierarchy on its way out of rows. What it holds is whole after base() and after each split().
 class Unpacker {

@@ -51,6 +51,26 @@ TEST(Pipelines, RefuseAnOptionTheyDoNotKnow) {
     }
 }
 
+// Of programs that stand for the built ones: nothing listed is not the same as nothing to do.
+TEST(Pipelines, FailWhereTheirMeshesCannotBeMade) {
+    shell::Scratch scratch;
+    std::string root = scratch.path() + "/root";
+    auto made = shell::run("mkdir -p root/pipelines root/bin root/build/release/bin && cd root && cp '" + kRoot +
+                               "'/pipelines/{peers,proofs,steps.sh} pipelines/\n"
+                               "for program in pipelines/set-up bin/cmake; do printf '#!/bin/sh\\n' >$program; done\n"
+                               "printf '#!/bin/sh\\nexit 3\\n' >build/release/bin/make-sample\n"
+                               "printf '#!/bin/sh\\necho 9 cuts by CGAL\\n' >build/release/bin/caveclod_hausdorff_test\n"
+                               "chmod +x pipelines/set-up bin/* build/release/bin/*",
+                           scratch.path());
+    ASSERT_EQ(made.exit, 0) << made.output;
+    for (const char* pipeline : {"peers", "proofs"}) {
+        auto ran = shell::run(std::string("PATH=\"$PWD/bin:$PATH\" env -u OVERLOOK_DATA pipelines/") + pipeline, root);
+        EXPECT_NE(ran.exit, 0) << ran.output;
+        EXPECT_TRUE(contains(ran.output, "4/4 failed with exit code")) << ran.output;
+        EXPECT_FALSE(contains(ran.output, "meshes,")) << ran.output;
+    }
+}
+
 TEST(Pipelines, FindWhichPackagesAreMissing) {
     shell::Scratch scratch;
     shell::write_file(scratch.path() + "/list", "# a comment\nbash\nno-such-package-here  # another\nbas\n");

@@ -8,6 +8,7 @@
 
 #include "runtime/caveclod/mesh_stream.h"
 #include "runtime/caveclod/refine.h"
+#include "runtime/view/nearest_in_triangle.h"
 #include "tests/caveclod/mesh_files.h"
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/bake.h"
@@ -34,24 +35,10 @@ TEST(NearestPoint, IsThatOfTryingAllTriangles) {
     for (const glm::dvec3& place : random_places(2000, 2, 14)) {
         double least = 1e300;
         for (size_t i = 0; i < corners.size(); i += 3) {
-            glm::dvec3 at = nearest_in_triangle(place, corners[i], corners[i + 1], corners[i + 2]);
+            glm::dvec3 at = view::nearest_in_triangle(place, corners[i], corners[i + 1], corners[i + 2]);
             least = std::min(least, glm::distance(at, place));
         }
         ASSERT_DOUBLE_EQ(glm::distance(nearest(place), place), least);
-    }
-}
-
-TEST(NearestPoint, LiesInTheTriangleAndNoneIsNearer) {
-    std::mt19937_64 random(3);
-    std::uniform_real_distribution<double> share(0, 1);
-    std::vector<glm::dvec3> places = random_places(4 * 500, 4, 1);
-    for (size_t i = 0; i < places.size(); i += 4) {
-        const glm::dvec3 &place = places[i], &a = places[i + 1], &b = places[i + 2], &c = places[i + 3];
-        double found = glm::distance(nearest_in_triangle(place, a, b, c), place);
-        for (int k = 0; k < 200; ++k) {
-            double u = share(random), v = share(random) * (1 - u);
-            ASSERT_GE(glm::distance(a + u * (b - a) + v * (c - a), place), found - 1e-12);
-        }
     }
 }
 

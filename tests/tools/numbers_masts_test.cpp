@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "tools/measure/numbers/masts.h"
 
 namespace overlook::measure {
@@ -52,6 +55,16 @@ TEST(MastLoss, TellsMastsByTheirRedInLightAndShade) {
     EXPECT_GT(mast_loss(bar(30, 4, kSide, 80), bar(30, 4), kFactor).lost_px, 0);
     EXPECT_TRUE(is_mast_red(50, 24, 24));
     EXPECT_FALSE(is_mast_red(50, 25, 3));
+}
+
+TEST(MastSamples, AreSixtyFourAPixelOrSaidToBeFewer) {
+    EXPECT_EQ(mast_samples_a_side(2048, 1024), 8u);
+    EXPECT_EQ(mast_samples_sentence(2048, 2048), "64 samples a pixel");
+    for (auto [width_px, height_px] : {std::pair(2049u, 10u), {10u, 2160u}, {3840u, 2160u}}) {
+        EXPECT_EQ(mast_samples_a_side(width_px, height_px), 4u);
+        std::string sentence = mast_samples_sentence(width_px, height_px);
+        EXPECT_EQ(sentence.rfind("16 samples a pixel, as pictures of more than 2048 pixels a side", 0), 0u) << sentence;
+    }
 }
 
 }  // namespace

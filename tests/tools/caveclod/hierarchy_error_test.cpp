@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
 
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/cut.h"
@@ -53,6 +54,22 @@ TEST(StatedError, IsNeverBelowTheDistanceOfARandomCut) {
         }
         std::sort(ratios.begin(), ratios.end());
         EXPECT_LE(ratios[ratios.size() / 2], 1.1) << "the bound is proven, and it is also tight";
+    }
+}
+
+// So small that costs come to nothing in floats, down to all in one place: what waits must come to its turn all the same.
+TEST(Passes, EndWhereAMeshIsTooSmallToHaveASize) {
+    std::mt19937 random(9);
+    for (float size_m : {1e-19f, 1e-30f, 1e-38f, 1e-42f, 0.0f}) {
+        mesh::Mesh mesh = test::grid(12, 12, [](double, double) { return 0.0; });
+        for (glm::vec3& p : mesh.positions_m) {
+            p *= size_m;
+            mesh.colours.push_back({uint8_t(random()), uint8_t(random()), uint8_t(random()), 255});
+        }
+        mesh.face_colours = mesh.faces;
+        Baked baked = bake(std::move(mesh));
+        EXPECT_EQ(broken_law(baked.hierarchy), "") << size_m;
+        EXPECT_GT(baked.hierarchy.split_count(), 100u) << size_m;
     }
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
+#include "formats/caveclod_codes.h"
 #include "tools/bake/caveclod/cut.h"
 #include "tools/bake/caveclod/hierarchy_rows.h"
 
@@ -38,16 +40,26 @@ mesh::Mesh on_grid(const mesh::Mesh& mesh, const Precision& precision, Grid& gri
     return moved;
 }
 
-void note_floor(const Hierarchy& hierarchy, BakeReport& report) {
+// [S] what each split would be stated at if no other needed it.
+std::vector<float> stated_alone_m(const Hierarchy& hierarchy, const std::vector<float>& own_error_m, double displacement_m) {
+    Hierarchy alone;
+    alone.error_m = own_error_m;
+    add_displacement(alone, displacement_m);
+    for (float& error_m : alone.error_m) error_m = error_of_code(code_of_error(std::max(error_m, hierarchy.finest_error_m)));
+    return alone.error_m;
+}
+
+void note_floor(const Hierarchy& hierarchy, double displacement_m, BakeReport& report) {
     glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
     for (const glm::vec3& p : hierarchy.positions_m) low = glm::min(low, glm::dvec3(p)), high = glm::max(high, glm::dvec3(p));
     report.size_m = hierarchy.positions_m.empty() ? 0 : glm::length(high - low);
     double error_m = 0.01 * report.size_m;
     report.face_count_at_one_percent = face_count_at(hierarchy, error_m);
     report.kept_at_one_percent = report.simplify.hindrances;
+    std::vector<float> alone_m = stated_alone_m(hierarchy, report.simplify.own_error_m, displacement_m);
     for (uint32_t i = 0; i < hierarchy.split_count(); ++i) {
         bool is_applied = double(std::max(hierarchy.error_m[i], hierarchy.finest_error_m)) > error_m;
-        Hindrance why = double(report.simplify.own_error_m[i]) > error_m ? Hindrance::error : Hindrance::order;
+        Hindrance why = double(alone_m[i]) > error_m ? Hindrance::error : Hindrance::order;
         if (is_applied) ++report.kept_at_one_percent[size_t(why)];
     }
 }
@@ -87,10 +99,11 @@ Result<Hierarchy> bake(const mesh::Mesh& mesh, const BakeOptions& options, BakeR
     report.quantised.position_m = moved_m;
     report.quantised.normal_deg = std::max(report.quantised.normal_deg, looks.normal_deg);
     report.quantised.uv = std::max(report.quantised.uv, looks.uv);
-    add_displacement(*hierarchy, report.quantised.position_m + options.source_rounding_m);
+    double displacement_m = report.quantised.position_m + options.source_rounding_m;
+    add_displacement(*hierarchy, displacement_m);
     if (auto completed = complete(*hierarchy); !completed) return tl::unexpected(completed.error());
     round_errors(*hierarchy);
-    note_floor(*hierarchy, report);
+    note_floor(*hierarchy, displacement_m, report);
     progress(1);
     return hierarchy;
 }

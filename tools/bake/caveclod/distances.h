@@ -6,12 +6,6 @@
 
 namespace overlook::caveclod {
 
-inline glm::dvec3 nearest_on_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-    glm::dvec3 along = b - a;
-    double length2 = glm::dot(along, along);
-    return a + along * (length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0);
-}
-
 inline double distance2_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
     glm::dvec3 along = b - a, from = p - a;
     double length2 = glm::dot(along, along);
@@ -57,17 +51,6 @@ inline double distance2_to_triangle(const glm::dvec3& p, const TriangleProbe& t)
     return distance2_to_triangle(p, t,
                                  {glm::dot(glm::cross(pa, pb), t.normal) < 0, glm::dot(glm::cross(pb, pc), t.normal) < 0,
                                   glm::dot(glm::cross(pc, pa), t.normal) < 0});
-}
-
-// The point of the closed triangle that is nearest to p: over the inside, or on one of the sides.
-inline glm::dvec3 nearest_in_triangle(const glm::dvec3& p, const TriangleProbe& t) {
-    auto is_beyond = [&](const glm::dvec3& a, const glm::dvec3& b) { return glm::dot(glm::cross(t.normal, b - a), p - a) < 0; };
-    bool is_over = t.inverse_normal2 > 0 && !is_beyond(t.a, t.b) && !is_beyond(t.b, t.c) && !is_beyond(t.c, t.a);
-    if (is_over) return p - t.normal * (glm::dot(p - t.a, t.normal) * t.inverse_normal2);
-    glm::dvec3 nearest = nearest_on_segment(p, t.a, t.b);
-    for (const glm::dvec3& other : {nearest_on_segment(p, t.b, t.c), nearest_on_segment(p, t.c, t.a)})
-        if (glm::dot(other - p, other - p) < glm::dot(nearest - p, nearest - p)) nearest = other;
-    return nearest;
 }
 
 // One that very many points are held against: its sides' normals, which point inwards, are at hand as well.

@@ -7,24 +7,18 @@
 #include <limits>
 
 #include "formats/parallel.h"
-#include "tools/bake/caveclod/attribute_deviation.h"
 #include "tools/bake/caveclod/stopwatch.h"
 #include "tools/bake/caveclod/thickness.h"
 
 namespace overlook::caveclod {
 namespace {
 
-constexpr size_t kPositionGrain = 2048, kCheckGrain = 512, kFanGrain = 64;
+constexpr size_t kPositionGrain = 2048, kCheckGrain = 512;
 // What is known of a position's candidate; kNext: it was refused, and the next dearer one is wanted
 // (where seams move).
 constexpr uint8_t kNothing = 0, kGuess = 1, kNext = 2, kAllowed = 3;
-// A pass takes from the cheapest this share of all candidates; those measured worse than so many times its limit wait. A collapse
-// out of order holds all that comes after it at its error, so where the limit is above kCoarseShare of the mesh's size, and few
-// faces are left, a pass is choosier.
-struct Choosiness {
-    double share_of_pass, worst;
-};
-constexpr Choosiness kFine{0.5, 2.5}, kCoarse{0.25, 1};
+// A collapse out of order holds all that comes after it at its error, so where the limit is above this share of the mesh's size,
+// and few faces are left, a pass is choosier.
 constexpr double kCoarseShare = 1e-3;
 // Below this share of the mesh's size errors are rounding, and all the same.
 constexpr double kLeastLimitShare = 1e-8;
@@ -69,7 +63,7 @@ Passes::Passes(WorkingMesh& mesh, const SimplifyOptions& options, SimplifyReport
     for (const glm::vec3& p : mesh.positions_m) low = glm::min(low, p), high = glm::max(high, p);
     size_m_ = double(glm::length(high - low));
     limit_m_ = kLeastLimitShare * size_m_;
-    if (options.keeps_thin) find_thin_things(size_m_);
+    if (options.keeps_thin) find_thin_things();
     size_t position_count = mesh.some_corner.size();
     for (uint32_t p = 0; p < position_count; ++p)
         if (mesh.is_alive(p) && mesh.kind[p] != PositionKind::rigid) alive_.push_back(p);
@@ -80,11 +74,8 @@ Passes::Passes(WorkingMesh& mesh, const SimplifyOptions& options, SimplifyReport
     target_in_.assign(position_count, 0);
 }
 
-void Passes::find_thin_things(double size_m) {
-    std::vector<Triangle> faces;
-    for (const WorkingFace& face : mesh_.faces)
-        faces.push_back({mesh_.at(face.position[0]), mesh_.at(face.position[1]), mesh_.at(face.position[2])});
-    std::vector<float> thickness_m = thickness_of_positions(mesh_, TriangleTree(faces), slack_m_, kThinnestShare * size_m);
+void Passes::find_thin_things() {
+    std::vector<float> thickness_m = thickness_of_positions(mesh_, source_, slack_m_, kThinnestShare * size_m_);
     for (size_t p = 0; p < thickness_m.size(); ++p) map_.may_lose_m[p] = float(kMostThinning) * thickness_m[p];
 }
 
@@ -107,13 +98,9 @@ Hindrance Passes::hindrance_of(uint32_t position) const {
     return rule == Hindrance::turned ? refused_by_[position] : rule;
 }
 
-bool Passes::is_coarse() const {
-    return limit_m_ > kCoarseShare * size_m_;
-}
-
-// What a collapse may be measured at and be made in this pass.
-double Passes::most_allowed_m() const {
-    return limit_m_ * (is_coarse() ? kCoarse : kFine).worst;
+Passes::Choosiness Passes::choosiness() const {
+    constexpr Choosiness kFine{0.5, 2.5}, kCoarse{0.25, 1};
+    return limit_m_ > kCoarseShare * size_m_ ? kCoarse : kFine;
 }
 
 void Passes::find_queue() {
@@ -141,7 +128,7 @@ void Passes::raise_limit() {
         if (candidates_[p].kept != kNone) costs_.push_back(float(candidates_[p].cost_m));
     if (costs_.empty()) limit_m_ = kForbidden_m;
     if (costs_.empty()) return;
-    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * (is_coarse() ? kCoarse : kFine).share_of_pass);
+    auto bound = costs_.begin() + ptrdiff_t(double(costs_.size() - 1) * choosiness().share_of_pass);
     std::nth_element(costs_.begin(), bound, costs_.end());
     limit_m_ = std::max(limit_m_, double(*bound));
     for (uint32_t p : alive_)
@@ -178,14 +165,6 @@ void Passes::sort_queue() {
     std::swap(queue_, sorted_);
 }
 
-void Passes::prepare(const Chosen& chosen, TurnedFan& prepared) const {
-    Star star;
-    gather_star(mesh_, chosen.gone, star);
-    uint32_t at = uint32_t(std::find(star.link.begin(), star.link.begin() + star.count + 1, chosen.kept) - star.link.begin());
-    fan_of(star, chosen.gone, at, prepared.fan);
-    keeps_groups(mesh_, prepared.fan, prepared.turned);
-}
-
 // Collapses of one pass share no face, and none changes the star of a position that another collapses into: so each stays allowed
 // whichever of the others are made.
 bool Passes::claim(uint32_t gone, uint32_t kept) {
@@ -215,57 +194,6 @@ void Passes::select(uint64_t least_face_count) {
     // Made in the order of positions, neighbours find one another's memory warm: several times faster than in the order of cost.
     std::sort(chosen_.begin(), chosen_.end(), [](const Chosen& a, const Chosen& b) { return a.gone < b.gone; });
     changes_.resize(std::max(changes_.size(), (chosen_.size() + kFanGrain - 1) / kFanGrain));
-}
-
-void Passes::measure() {
-    Stopwatch watch(report_.measuring_s);
-    fans_.resize(std::max(fans_.size(), chosen_.size()));
-    parallel_ranges(chosen_.size(), kFanGrain, [&](size_t begin, size_t end) {
-        MapChanges& changes = changes_[begin / kFanGrain];
-        changes.splices.clear(), changes.added.clear();
-        for (size_t i = begin; i < end; ++i) measure_one(chosen_[i], fans_[i], changes);
-    });
-}
-
-void Passes::measure_one(Chosen& chosen, TurnedFan& prepared, MapChanges& changes) {
-    prepare(chosen, prepared);
-    const Fan& fan = prepared.fan;
-    chosen.measured = measure_collapse(map_, mesh_, fan, chosen.fan, changes);
-    uint32_t place = map_.placement[chosen.gone].place;
-    chosen.stated_m = std::max(chosen.measured.error_m, kThinningWeight * chosen.measured.thinning_m);
-    chosen.fan_error_m = chosen.measured.error_m;
-    for (uint32_t i = 0; i < fan.count; ++i)
-        chosen.fan_error_m = std::max(chosen.fan_error_m, double(face_error_m_[fan.corner[i] / kCorners]));
-    if (mesh_.seams_move) measure_seams(chosen, prepared, changes);
-    chosen.worst_m = std::max(chosen.stated_m, attribute_deviation_m(mesh_, fan, prepared.turned, place));
-    bool is_within = chosen.seam_error.is_within(seams_), has_slid = chosen.seam_error.uv_texels > seams_.uv_texels;
-    chosen.is_refused = !chosen.measured.faces_its_source || !is_within;
-    if (!is_within) chosen.refused_by = has_slid ? Hindrance::texels : Hindrance::degrees;
-    bool may_be_made = !chosen.is_refused && chosen.worst_m <= most_allowed_m();
-    if (may_be_made) chosen.turned_face = find_turned_face(chosen, fan);
-    chosen.is_refused |= chosen.turned_face != kNone;
-}
-
-void Passes::measure_seams(Chosen& chosen, const TurnedFan& prepared, const MapChanges& changes) const {
-    std::vector<uint32_t> places;
-    for (uint32_t v : changes.inside) places.push_back(map_.placement[v].place);
-    chosen.seam_error = seam_error(mesh_, prepared.fan, prepared.turned, changes.inside, places, seams_);
-    chosen.seam_shift_m = seam_shift_m(mesh_, prepared.fan, prepared.turned);
-    chosen.stated_m = std::max(chosen.stated_m, chosen.seam_shift_m);
-}
-
-// Every point of a new face is where the map has moved some point of the source, so some source is within the fan's error of it.
-uint32_t Passes::find_turned_face(const Chosen& chosen, const Fan& fan) const {
-    std::array<Triangle, kMostValence> faces;
-    std::array<uint32_t, kMostValence> guesses;  // what the face was in the source
-    uint32_t count = 0;
-    for (uint32_t i = fan.first; i <= fan.last; ++i, ++count) {
-        faces[count] = {mesh_.at(fan.kept), mesh_.at(fan.link[i]), mesh_.at(fan.link[i + 1])};
-        guesses[count] = fan.corner[i] / kCorners;
-    }
-    size_t turned =
-        source_.first_turned(std::span(faces).first(count), chosen.fan_error_m, slack_m_, std::span(guesses).first(count));
-    return turned == count ? kNone : fan.first + uint32_t(turned);
 }
 
 void Passes::record(const Chosen& chosen, const TurnedFan& prepared, CollapseLog& log) {
@@ -300,7 +228,7 @@ void Passes::decide(CollapseLog& log) {
             ++report_.refused_count;
             refused_by_[chosen.gone] = chosen.refused_by;
         } else if (!chosen.is_made) {
-            candidate.cost_m = chosen.worst_m / most_m * limit_m_ * kFloatAllowance;
+            candidate.cost_m = chosen.worst_m / choosiness().worst * kFloatAllowance;  // at such a limit it may be made
             least_waiting_m = std::min(least_waiting_m, candidate.cost_m);
             ++report_.postponed_count;
         } else {

@@ -41,9 +41,15 @@ class Passes {
         TurnedVertices turned;
     };
 
-    bool is_coarse() const;
-    double most_allowed_m() const;
-    void find_thin_things(double size_m);
+    // A pass takes from the cheapest this share of all candidates; those measured worse than so many times its limit wait.
+    struct Choosiness {
+        double share_of_pass, worst;
+    };
+    static constexpr size_t kFanGrain = 64;  // of chosen_ in a block
+    Choosiness choosiness() const;
+    // What a collapse may be measured at and be made in this pass.
+    double most_allowed_m() const { return limit_m_ * choosiness().worst; }
+    void find_thin_things();
     void find_queue();
     void guess_candidates();
     void raise_limit();

@@ -29,12 +29,12 @@ size_t SourceParts::first_turned(std::span<const Triangle> faces, double away_m,
                                  std::span<const uint32_t> guesses) const {
     std::vector<uint32_t> places;
     for (uint32_t guess : guesses) places.push_back(place_[guess]);
-    return caveclod::first_turned(trees_[part_[guesses[0]]], faces, away_m, slack_m, places);
+    return caveclod::first_turned(part_of(guesses[0]), faces, away_m, slack_m, places);
 }
 
 // No point of a face is farther from the source than its middle, and from there to the farthest corner.
 bool SourceParts::is_turned(const Triangle& face, double slack_m, uint32_t guess) const {
-    const TriangleTree& part = trees_[part_[guess]];
+    const TriangleTree& part = part_of(guess);
     glm::dvec3 middle = (face[0] + face[1] + face[2]) / 3.0;
     const Triangle& near = part.triangle(place_[guess]);
     double most_m = std::sqrt(distance2_to_triangle(middle, probe_of(near[0], near[1], near[2])));

@@ -1,4 +1,5 @@
-// The source by its parts, so that a face is judged by what it stands for and not by whatever lies near.
+// The source by its parts, so that a face is judged by what it stands for, and a thing measured by its own walls, and not by
+// whatever lies near.
 #pragma once
 
 #include <array>
@@ -28,6 +29,8 @@ class SourceParts {
     bool is_turned(const Triangle& face, double slack_m, uint32_t guess) const;
 
     size_t count() const { return trees_.size(); }
+    // The faces of the part that a face belongs to.
+    const TriangleTree& part_of(uint32_t face) const { return trees_[part_[face]]; }
 
   private:
     std::vector<uint32_t> part_, place_;  // [F] each face's, and its number in the part's tree

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "runtime/view/nearest_in_triangle.h"
 #include "tools/bake/caveclod/distances.h"
 #include "tools/bake/caveclod/surface_map.h"
 
@@ -115,7 +116,7 @@ class FanMeasure {
         glm::dvec3 inward(-map_.points[v].area_vector_m2);
         double length = glm::length(inward);
         if (!(length > 0)) return;
-        double inward_m = glm::dot(nearest_in_triangle(at(v), face) - at(v), inward) / length;
+        double inward_m = glm::dot(view::nearest_in_triangle(at(v), face.a, face.b, face.c) - at(v), inward) / length;
         if (inward_m > double(map_.may_lose_m[v])) thinning_m_ = std::max(thinning_m_, inward_m);
     }
 

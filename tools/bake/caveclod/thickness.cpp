@@ -4,24 +4,12 @@
 #include <limits>
 
 #include "formats/parallel.h"
-#include "tools/bake/caveclod/disjoint_sets.h"
 
 namespace overlook::caveclod {
 namespace {
 
 constexpr size_t kGrain = 1024;
 constexpr double kLeastCosine = 0.5;  // between the ray and the normal of the wall that it leaves through
-
-// [F] a number for each piece of surface that hangs together over positions.
-std::vector<uint32_t> pieces_of(const WorkingMesh& mesh) {
-    DisjointSets sets(mesh.some_corner.size());
-    for (const WorkingFace& face : mesh.faces)
-        sets.unite(face.position[0], face.position[1]), sets.unite(face.position[0], face.position[2]);
-    std::vector<uint32_t> pieces;
-    pieces.reserve(mesh.face_count());
-    for (const WorkingFace& face : mesh.faces) pieces.push_back(sets.find(face.position[0]));
-    return pieces;
-}
 
 // Of length 1, or 0.
 glm::dvec3 outward_at(const WorkingMesh& mesh, const Star& star, uint32_t position) {
@@ -33,8 +21,7 @@ glm::dvec3 outward_at(const WorkingMesh& mesh, const Star& star, uint32_t positi
 
 }  // namespace
 
-std::vector<float> thickness_of_positions(const WorkingMesh& mesh, const TriangleTree& source, double slack_m, double most_m) {
-    std::vector<uint32_t> pieces = pieces_of(mesh);
+std::vector<float> thickness_of_positions(const WorkingMesh& mesh, const SourceParts& source, double slack_m, double most_m) {
     std::vector<float> thickness_m(mesh.some_corner.size(), std::numeric_limits<float>::infinity());
     parallel_ranges(thickness_m.size(), kGrain, [&](size_t begin, size_t end) {
         Star star;
@@ -42,10 +29,10 @@ std::vector<float> thickness_of_positions(const WorkingMesh& mesh, const Triangl
             if (!mesh.is_alive(uint32_t(p)) || !gather_star(mesh, uint32_t(p), star)) continue;
             glm::dvec3 inward = -outward_at(mesh, star, uint32_t(p));
             if (inward == glm::dvec3(0)) continue;
-            TriangleTree::Nearest wall =
-                source.ahead({mesh.at(uint32_t(p)), inward, slack_m, most_m}, pieces, pieces[star.corner[0] / kCorners]);
+            const TriangleTree& part = source.part_of(star.corner[0] / kCorners);
+            TriangleTree::Nearest wall = part.ahead({mesh.at(uint32_t(p)), inward, slack_m, most_m});
             if (wall.triangle == kNone) continue;
-            const Triangle& t = source.triangle(wall.triangle);
+            const Triangle& t = part.triangle(wall.triangle);
             glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
             if (glm::dot(normal, inward) >= kLeastCosine * glm::length(normal)) thickness_m[p] = float(wall.distance_m);
         }

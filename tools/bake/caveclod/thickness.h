@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/bake/caveclod/triangle_tree.h"
+#include "tools/bake/caveclod/source_parts.h"
 #include "tools/bake/caveclod/working_mesh.h"
 
 namespace overlook::caveclod {
@@ -19,11 +19,11 @@ constexpr double kThinningWeight = 16;
 constexpr double kThinnestShare = 0.01;
 
 // [P] metres, along the inward normal of each position (of the faces round it, by area) to the wall that the ray leaves the same
-// piece of surface through; infinite where there is none, where it is not looked at from within (turned by more than 60 degrees
-// from the ray), where it is farther than most_m, and within slack_m of the position. source: the mesh's faces, by their numbers.
-// Surfaces that enclose nothing have no thickness, and pieces that reach into one another each their own. Related: L. Shapira, A.
-// Shamir, D. Cohen-Or, Consistent Mesh Partitioning and Skeletonisation using the Shape Diameter Function, 2008 (the mean of a
-// cone of rays, where this is one). O(P log F), any number of threads.
-std::vector<float> thickness_of_positions(const WorkingMesh& mesh, const TriangleTree& source, double slack_m, double most_m);
+// part of the source through; infinite where there is none, where it is not looked at from within (turned by more than 60 degrees
+// from the ray), where it is farther than most_m, and within slack_m of the position. source: of the mesh's faces, by their
+// numbers. Surfaces that enclose nothing have no thickness, and parts that reach into one another each their own. Related: L.
+// Shapira, A. Shamir, D. Cohen-Or, Consistent Mesh Partitioning and Skeletonisation using the Shape Diameter Function, 2008 (the
+// mean of a cone of rays, where this is one). O(P log F), any number of threads.
+std::vector<float> thickness_of_positions(const WorkingMesh& mesh, const SourceParts& source, double slack_m, double most_m);
 
 }  // namespace overlook::caveclod

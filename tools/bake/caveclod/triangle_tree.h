@@ -55,9 +55,9 @@ class TriangleTree {
         double slack_m = 0;          // what is nearer is passed over; what is missed by no more than that is hit
         double below_m = 1e300;      // nothing farther is of interest
     };
-    // The nearest triangle on a ray that it leaves through: that looks ahead. Of those alone of which part[] is `wanted`. Index
-    // kNobody and below_m where there is none; of several in one place the least.
-    Nearest ahead(const Ray& ray, std::span<const uint32_t> part, uint32_t wanted) const;
+    // The nearest triangle on a ray that it leaves through: that looks ahead. Index kNobody and below_m where there is none; of
+    // several in one place the least.
+    Nearest ahead(const Ray& ray) const;
 
     const Triangle& triangle(uint32_t i) const { return triangles_[i]; }
     std::span<const Triangle> triangles() const { return triangles_; }

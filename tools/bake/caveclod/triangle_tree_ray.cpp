@@ -40,7 +40,7 @@ double leaves(const TriangleTree::Ray& ray, const TriangleProbe& t) {
 
 }  // namespace
 
-TriangleTree::Nearest TriangleTree::ahead(const Ray& ray, std::span<const uint32_t> part, uint32_t wanted) const {
+TriangleTree::Nearest TriangleTree::ahead(const Ray& ray) const {
     Nearest best{0xffffffff, ray.below_m};
     std::array<std::pair<double, uint32_t>, kMostPending> pending;
     size_t count = 0;
@@ -53,7 +53,6 @@ TriangleTree::Nearest TriangleTree::ahead(const Ray& ray, std::span<const uint32
         if (entered_m > best.distance_m) continue;
         const Node& node = nodes_[index];
         for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-            if (part[order_[i]] != wanted) continue;
             Nearest found{order_[i], leaves(ray, probes_[i])};
             bool is_tie = found.distance_m == best.distance_m && found.triangle < best.triangle;
             if (found.distance_m < best.distance_m || is_tie) best = found;

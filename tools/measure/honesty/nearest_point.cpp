@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "runtime/view/nearest_in_triangle.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -20,24 +22,6 @@ double box_distance_squared(const glm::dvec3& place, const glm::dvec3& low, cons
 
 }  // namespace
 
-glm::dvec3 nearest_in_triangle(const glm::dvec3& place, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    glm::dvec3 ab = b - a, ac = c - a, ap = place - a, bp = place - b, cp = place - c;
-    double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-    if (d1 <= 0 && d2 <= 0) return a;
-    double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-    if (d3 >= 0 && d4 <= d3) return b;
-    double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 - d3 != 0 ? d1 / (d1 - d3) : 0);
-    double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-    if (d6 >= 0 && d5 <= d6) return c;
-    double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 - d6 != 0 ? d2 / (d2 - d6) : 0);
-    double va = d3 * d6 - d5 * d4, to_b = d4 - d3, to_c = d5 - d6;
-    if (va <= 0 && to_b >= 0 && to_c >= 0) return b + (c - b) * (to_b + to_c != 0 ? to_b / (to_b + to_c) : 0);
-    double sum = va + vb + vc;
-    return sum != 0 ? a + (ab * vb + ac * vc) / sum : a;
-}
-
 NearestPoint::NearestPoint(std::span<const glm::dvec3> corners_m) : corners_m_(corners_m.begin(), corners_m.end()) {
     order_.resize(corners_m.size() / 3);
     std::iota(order_.begin(), order_.end(), 0u);
@@ -50,7 +34,8 @@ void NearestPoint::build(uint32_t node, uint32_t begin, uint32_t end) {
     constexpr double kFar = std::numeric_limits<double>::max();
     glm::dvec3 low(kFar), high(-kFar), middle_low(kFar), middle_high(-kFar);
     auto middle_of = [&](uint32_t triangle) {
-        return (corners_m_[3 * size_t(triangle)] + corners_m_[3 * size_t(triangle) + 1] + corners_m_[3 * size_t(triangle) + 2]) / 3.0;
+        return (corners_m_[3 * size_t(triangle)] + corners_m_[3 * size_t(triangle) + 1] + corners_m_[3 * size_t(triangle) + 2]) /
+               3.0;
     };
     for (uint32_t i = begin; i < end; ++i) {
         for (size_t k = 0; k < 3; ++k) {
@@ -91,7 +76,7 @@ glm::dvec3 NearestPoint::operator()(const glm::dvec3& place_m) const {
         const Node& node = nodes_[index];
         for (uint32_t i = node.first; i < node.first + node.count; ++i) {
             const glm::dvec3* corner = &corners_m_[3 * size_t(order_[i])];
-            glm::dvec3 at = nearest_in_triangle(place_m, corner[0], corner[1], corner[2]);
+            glm::dvec3 at = view::nearest_in_triangle(place_m, corner[0], corner[1], corner[2]);
             double away = squared(at - place_m);
             if (away < least) least = away, best = at;
         }

@@ -29,7 +29,4 @@ class NearestPoint {
     std::vector<Node> nodes_;
 };
 
-// Of a triangle; C. Ericson, Real-Time Collision Detection, 2005, 5.1.5: by the region of the plane the place lies over.
-glm::dvec3 nearest_in_triangle(const glm::dvec3& place, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
-
 }  // namespace overlook::measure

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include <fmt/format.h>
+
 namespace overlook::measure {
 namespace {
+
+constexpr uint32_t kFine = 8, kCoarse = 4, kMostTargetSide_px = 16384;
 
 std::vector<double> areas_px(const ImageRgb8& image, uint32_t factor) {
     uint32_t width = image.width / factor;
@@ -30,6 +34,20 @@ double area_round(const std::vector<double>& areas, uint32_t width, uint32_t hei
 
 bool is_mast_red(uint8_t red, uint8_t green, uint8_t blue) {
     return red > 2 * std::max(green, blue);
+}
+
+uint32_t mast_samples_a_side(uint32_t width_px, uint32_t height_px) {
+    return std::max(width_px, height_px) <= kMostTargetSide_px / kFine ? kFine : kCoarse;
+}
+
+std::string mast_samples_sentence(uint32_t width_px, uint32_t height_px) {
+    uint32_t samples = mast_samples_a_side(width_px, height_px);
+    std::string sentence = fmt::format("{} samples a pixel", samples * samples);
+    if (samples == kFine) return sentence;
+    return sentence + fmt::format(
+                          ", as pictures of more than {} pixels a side are too large for {}: coarser, so that a mast three "
+                          "quarters as thick may count as lost",
+                          kMostTargetSide_px / kFine, kFine * kFine);
 }
 
 MastLoss mast_loss(const ImageRgb8& test, const ImageRgb8& reference, uint32_t factor) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "formats/image.h"
@@ -10,6 +11,13 @@ namespace overlook::measure {
 
 // What masts are painted with: red more than twice as strong as green and blue, sRGB-encoded, which light and shade leave so.
 bool is_mast_red(uint8_t red, uint8_t green, uint8_t blue);
+
+// Samples along a pixel's side by which masts of a picture of that size are judged: 8, or 4 where a target of eight times the
+// size is more than every OpenGL 4.5 has. By four a mast of 0.57 px covers three columns or two, and one of 0.43 px two or one:
+// less than half of it is found where three quarters stand.
+uint32_t mast_samples_a_side(uint32_t width_px, uint32_t height_px);
+// "64 samples a pixel"; where that are fewer, why, and what they are worth.
+std::string mast_samples_sentence(uint32_t width_px, uint32_t height_px);
 
 struct MastLoss {
     double mast_px = 0, lost_px = 0;  // areas, pixels

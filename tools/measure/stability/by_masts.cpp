@@ -8,14 +8,6 @@
 namespace overlook::measure {
 namespace {
 
-// Samples along a pixel's side. With four of them a mast of 0.57 px covers three columns or two, and one of 0.43 px two or one:
-// less than half of it was found where three quarters stood. Eight tell; large pictures, of which OpenGL 4.5 has no target of
-// eight times the size everywhere, are judged by kSupersampling.
-uint32_t samples_a_side(uint32_t width_px, uint32_t height_px) {
-    constexpr uint32_t kFine = 8, kMostTargetSide_px = 16384;
-    return kFine * std::max(width_px, height_px) <= kMostTargetSide_px ? kFine : kSupersampling;
-}
-
 // The frame just decided, as large as the target.
 ImageRgb8 seen_finely(Method& method, const gl::Target& large) {
     method.draw(large);
@@ -23,7 +15,7 @@ ImageRgb8 seen_finely(Method& method, const gl::Target& large) {
 }
 
 Result<Finding> watch_masts(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras) {
-    uint32_t factor = samples_a_side(stage.width_px, stage.height_px);
+    uint32_t factor = mast_samples_a_side(stage.width_px, stage.height_px);
     Result<gl::Target> large = gl::Target::make(factor * stage.width_px, factor * stage.height_px, 1);
     if (!large) return tl::unexpected(large.error());
     std::unique_ptr<Method> method = stage.make(spec, stage.world), full = make_method(floor_spec(1), stage.world);
@@ -46,8 +38,8 @@ Result<Finding> watch_masts(Stage& stage, const MethodSpec& spec, const std::vec
     finding.figures["lost_mast_share"] = worst;
     finding.frames = uint32_t(cameras.size());
     finding.sentence = fmt::format(
-        "In the worst frame {:.2f} % of the masts' area is lost (magenta), in all together {:.2f} % of {:.0f} pixels.",
-        100 * worst, 100 * lost_px / mast_px, mast_px);
+        "In the worst frame {:.2f} % of the masts' area is lost (magenta), in all together {:.2f} % of {:.0f} pixels; by {}.",
+        100 * worst, 100 * lost_px / mast_px, mast_px, mast_samples_sentence(stage.width_px, stage.height_px));
     return finding;
 }
 
