@@ -49,13 +49,17 @@ GlbNode sphere() {
     return {"sphere", shapes.take(), {0, 0, 0}, {0, 0, 0}};
 }
 
-GlbNode cube() {
-    mesh::Surface blue;
-    blue.name = "blue", blue.base_colour = {0.06f, 0.12f, 0.85f, 1};
-    ShapeMaker shapes({blue});
+// knob_m: how far a knob stands out at the top; 0 = none.
+GlbNode cube(const char* name, const glm::vec4& colour, double knob_m = 0) {
+    mesh::Surface surface;
+    surface.name = name, surface.base_colour = colour;
+    ShapeMaker shapes({surface});
     shapes.add_box(0, {0, 0, 0}, {0.8, 0, 0}, {0, 0.8, 0}, {0, 0, 0.8}, 1, 1);
+    if (knob_m > 0) shapes.add_box(0, {0, 0, 0.8 + knob_m / 2}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, knob_m / 2}, 1, 1);
     return {"cube", shapes.take(), {0, 0, 0}, {0, 0, 0}};
 }
+const glm::vec4 kBlue{0.06f, 0.12f, 0.85f, 1}, kYellow{0.85f, 0.7f, 0.05f, 1}, kGreen{0.05f, 0.5f, 0.1f, 1};
+constexpr double kKnob_m = 0.4;
 
 GlbNode plain(double side_m) {
     constexpr uint32_t kCells = 24;
@@ -68,7 +72,7 @@ GlbNode plain(double side_m) {
 
 Result<std::string> level_text(const Kind& kind, int level, uint64_t seed) {
     if (kind.name == "windmills") return glb_text(windmill(level), kWindmillTurn_s);
-    if (kind.name == "simple") return glb_text({level == 0 ? sphere() : cube()}, 0);
+    if (kind.name == "simple") return glb_text({level == 0 ? sphere() : cube("blue", kBlue)}, 0);
     auto tree = tree_mesh(seed, tree_detail(level));
     if (!tree) return tl::unexpected(tree.error());
     return glb_text({{"tree", std::move(*tree), {0, 0, 0}, {0, 0, 0}}}, 0);
@@ -129,6 +133,10 @@ std::string readme_of(const Kind& kind) {
                             kind.asset, kind.asset);
     text += fmt::format("Levels made by hand, as in the paper:\n\n    bake-lod discrete{} -o {}.ovl --why\n\n", levels,
                         kind.name == "simple" ? kind.asset : kind.asset + "-by-hand");
+    if (kind.name == "simple")
+        text +=
+            "The sphere's own levels; and two whose faces are coplanar but for a knob:\n\n    bake-lod discrete simple-0.glb -o "
+            "sphere.ovl\n    bake-lod discrete coplanar-0.glb coplanar-1.glb -o coplanar.ovl\n\n";
     text +=
         "The ground, and what it looks like:\n\n    bake-lod discrete plain.glb -o plain.ovl --most-levels 1\n"
         "    player scene.json --flight flight.json\n";
@@ -148,6 +156,10 @@ Result<std::vector<std::string>> make_instances(const std::string& name, const I
         auto text = level_text(kind, level, options.seed);
         if (!text) return tl::unexpected(text.error());
         files.emplace_back(fmt::format("{}-{}.glb", kind.asset, level), std::move(*text));
+    }
+    if (kind.name == "simple") {
+        files.emplace_back("coplanar-0.glb", glb_text({cube("yellow", kYellow, kKnob_m)}, 0));
+        files.emplace_back("coplanar-1.glb", glb_text({cube("green", kGreen)}, 0));
     }
     double side_m = kind.apart_m * (side_count(options.count) + 8);
     files.emplace_back("plain.glb", glb_text({plain(side_m)}, 0));

@@ -6,6 +6,7 @@
 namespace overlook::measure {
 namespace {
 
+constexpr double kNearer = 8;  // times the error asked, at which levels change: near enough that they are seen to mismatch
 constexpr uint32_t kHeld = 8;  // frames in which a still camera is looked at, time standing still or all changes being over
 
 uint64_t changed(const ImageRgb8& a, const ImageRgb8& b) {
@@ -108,7 +109,10 @@ Result<Flicker> flicker_of(Stage& stage, const MethodSpec& spec, const std::vect
 }  // namespace
 
 Result<std::vector<Finding>> run_mismatched(Stage& stage, const Case& each, const scene::Flight& flight,
-                                            std::span<const MethodSpec> specs) {
+                                            std::span<const MethodSpec> asked) {
+    std::vector<MethodSpec> specs(asked.begin(), asked.end());
+    for (MethodSpec& spec : specs)
+        for (auto& [name, value] : spec.settings) value *= name == "error-px" ? kNearer : 1;
     Result<std::vector<Finding>> findings = run_dolly(stage, each, flight, specs);
     if (!findings) return findings;
     std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::in_row);
@@ -118,9 +122,10 @@ Result<std::vector<Finding>> run_mismatched(Stage& stage, const Case& each, cons
         Finding& finding = (*findings)[i];
         finding.figures["still_flicker"] = std::max(flicker->in_transition, flicker->at_rest);
         finding.sentence += fmt::format(
-            " A level changes first in frame {}; with the clock stopped and {} changes under way {:.4f} % of a still camera's "
+            " Levels change at {} times the error asked, so that their silhouettes are seen to differ. A level changes first in "
+            "frame {}; with the clock stopped and {} changes under way {:.4f} % of a still camera's "
             "pixels differ from frame to frame, once all are over {:.4f} %.",
-            flicker->begins, flicker->most_under_way, 100 * flicker->in_transition, 100 * flicker->at_rest);
+            kNearer, flicker->begins, flicker->most_under_way, 100 * flicker->in_transition, 100 * flicker->at_rest);
         if (finding.figures["still_flicker"] > 0) finding.worst = std::move(flicker->worst);
     }
     return findings;
