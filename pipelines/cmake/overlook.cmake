@@ -36,3 +36,28 @@ function(overlook_command name)
   target_link_libraries(${name} PRIVATE ${ARG_PRIVATE} overlook_options)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
+
+# Where modules are installed, and the way there from the programs: an installed tree may be moved as a whole.
+set(OVERLOOK_MODULE_DIR ${CMAKE_INSTALL_LIBDIR}/overlook)
+file(RELATIVE_PATH OVERLOOK_MODULES_FROM_PROGRAMS ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/overlook)
+
+# overlook_module(NAME SOURCES... [PRIVATE libs...])
+# A library that programs open while they run: NAME.so beside them in the build tree, in OVERLOOK_MODULE_DIR where installed.
+# It shows only what its sources mark, and links none of Overlook's static libraries, so that nothing of theirs is there twice.
+function(overlook_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PRIVATE" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}
+                                           CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(${name} PRIVATE OVERLOOK_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE ${ARG_PRIVATE} overlook_options)
+  install(TARGETS ${name} LIBRARY DESTINATION ${OVERLOOK_MODULE_DIR})
+endfunction()
+
+# overlook_opens_modules(LIBRARY MODULES...)   LIBRARY opens the modules: whoever links it has them built.
+function(overlook_opens_modules library)
+  target_compile_definitions(${library} PRIVATE OVERLOOK_VERSION="${PROJECT_VERSION}"
+                                                OVERLOOK_MODULES_FROM_PROGRAMS="${OVERLOOK_MODULES_FROM_PROGRAMS}")
+  add_dependencies(${library} ${ARGN})
+endfunction()

@@ -49,8 +49,8 @@ struct Target {
     std::vector<std::string> sources;  // from the root
     std::vector<std::string> links;    // as written, without generator expressions and "overlook::"
 };
-// The targets that a CMakeLists.txt defines or links further: overlook_library, overlook_command, add_library, add_executable,
-// target_sources, target_link_libraries.
+// The targets that a CMakeLists.txt defines or links further: overlook_library, overlook_command, overlook_module, add_library,
+// add_executable, target_sources, target_link_libraries.
 std::vector<Target> scan_cmake(const std::string& path, std::string_view text);
 
 struct Tree {
@@ -82,6 +82,8 @@ struct Libraries {
     std::vector<std::string> loaded;
 };
 Libraries libraries_of(const std::string& program);
+// Those that a program or a library that is opened later (a module) asks for itself.
+std::vector<std::string> libraries_needed_by(const std::string& file);
 
 // Rule 2 on a built program: none of the bakers' libraries is loaded, and what it asks for begins with a name of `allowed`.
 std::vector<Finding> check_lean(const std::string& program, const Libraries& libraries,

@@ -104,6 +104,21 @@ TEST(LeanPrograms, PlayerLoadsNoLibraryOfTheBakers) {
 }
 #endif
 
+#ifdef OVERLOOK_BAKER_PROBE
+TEST(BakerPrograms, LoadNoImageLibraryUntilTheyMeetAPicture) {
+    Libraries libraries = libraries_of(OVERLOOK_BAKER_PROBE);
+    ASSERT_FALSE(libraries.needed.empty());
+    for (const std::string& library : libraries.loaded)
+        for (const char* name : {"OpenImageIO", "opencv", "gdal"})
+            EXPECT_EQ(library.find(name), std::string::npos) << "a baker without pictures loads " << library;
+
+    std::vector<std::string> needed = libraries_needed_by(OVERLOOK_IMAGE_MODULE);
+    EXPECT_TRUE(std::any_of(needed.begin(), needed.end(), [](const std::string& n) {
+        return n.starts_with("libOpenImageIO.so");
+    })) << "one with pictures loads them by the module";
+}
+#endif
+
 #ifdef OVERLOOK_FAT_PROBE
 TEST(LeanPrograms, ProgramThatLoadsTheImageLibraryIsFound) {
     auto findings = check_lean("fat_probe", libraries_of(OVERLOOK_FAT_PROBE), kLean);

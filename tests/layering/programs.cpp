@@ -28,15 +28,19 @@ Libraries libraries_of(const std::string& program) {
         std::istringstream words(line);
         if (std::string name; words >> name) libraries.loaded.push_back(name.substr(name.rfind('/') + 1));
     }
+    libraries.needed = libraries_needed_by(program);
+    return libraries;
+}
+
+std::vector<std::string> libraries_needed_by(const std::string& file) {
+    std::vector<std::string> names;
     // " 0x0000000000000001 (NEEDED)             Shared library: [libfmt.so.9]"
-    std::istringstream needed(output_of("LC_ALL=C readelf --dynamic '" + program + "'"));
+    std::istringstream needed(output_of("LC_ALL=C readelf --dynamic '" + file + "'"));
     for (std::string line; std::getline(needed, line);) {
         size_t open = line.find('['), close = line.find(']');
-        if (line.find("(NEEDED)") != std::string::npos && open < close) {
-            libraries.needed.push_back(line.substr(open + 1, close - open - 1));
-        }
+        if (line.find("(NEEDED)") != std::string::npos && open < close) names.push_back(line.substr(open + 1, close - open - 1));
     }
-    return libraries;
+    return names;
 }
 
 }  // namespace overlook::layering

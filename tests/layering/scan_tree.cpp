@@ -78,7 +78,8 @@ std::vector<Target> scan_cmake(const std::string& path, std::string_view text) {
     std::string folder = path.substr(0, path.rfind('/') + 1);
     std::vector<Target> targets;
     for (const Command& command : commands_of(text)) {
-        bool is_ours = command.name == "overlook_library" || command.name == "overlook_command";
+        bool is_ours =
+            command.name == "overlook_library" || command.name == "overlook_command" || command.name == "overlook_module";
         bool adds = command.name == "add_library" || command.name == "add_executable";
         bool links = command.name == "target_link_libraries";
         if (!(is_ours || adds || links || command.name == "target_sources") || command.arguments.empty()) continue;

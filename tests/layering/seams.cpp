@@ -10,7 +10,7 @@ std::span<const Seam> seams() {
         {"CGAL", {"CGAL/"}, {"tools/bake/cgal/self_intersections.cpp"}},
         {"Draco", {"draco/"}, {"formats/draco_codec.cpp", "tools/bake/mesh/gltf_draco.cpp"}},
         {"meshoptimizer", {"meshoptimizer.h"}, {"formats/meshopt_codec.cpp", "tools/bake/mesh/gltf_meshopt.cpp"}},
-        {"OpenImageIO", {"OpenImageIO/"}, {"tools/bake/images.cpp"}},
+        {"OpenImageIO", {"OpenImageIO/"}, {"tools/bake/image_library.cpp"}},
         {"GeographicLib", {"GeographicLib/"}, {"tools/bake/georeference.cpp"}},
         {"tinygltf", {"tiny_gltf.h"}, {"tools/baked/glb.cpp"}},
         {"oneTBB", {"tbb/", "oneapi/"}, {"formats/parallel.cpp"}},

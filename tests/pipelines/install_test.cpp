@@ -21,15 +21,26 @@ TEST(Installed, OutsideProjectFindsItAndReadsABakedTerrain) {
                             scratch.path());
     ASSERT_EQ(built.exit, 0) << built.output;
 
+    // An installed tree may be moved: the module that reads the GeoTIFF is found from where the program is now.
     auto ran = shell::run(
-        "prefix/bin/make-sample dem -o sample --size 129 --quiet\n"
-        "prefix/bin/bake-lod terrain sample/dem.tif -o sample.ovl --quiet\n"
+        "mv prefix moved\n"
+        "moved/bin/make-sample dem -o sample --size 129 --quiet\n"
+        "LD_DEBUG=files LD_DEBUG_OUTPUT=loaded moved/bin/bake-lod terrain sample/dem.tif -o sample.ovl --quiet\n"
+        "grep -q 'moved/lib.*/overlook/overlook_images.so' loaded.*\n"
         "build/read_terrain sample.ovl 0\n"
         "build/read_terrain sample.ovl 1e9",
         scratch.path());
     ASSERT_EQ(ran.exit, 0) << ran.output;
     EXPECT_NE(ran.output.find("samples: 129 x 129\n"), std::string::npos) << ran.output;
     EXPECT_NE(ran.output.find("triangles within 1e+09 m: 2\n"), std::string::npos) << ran.output;
+
+    auto incomplete = shell::run(
+        "rm moved/lib*/overlook/overlook_images.so || rm moved/lib/*/overlook/overlook_images.so\n"
+        "moved/bin/bake-lod terrain sample/dem.tif -o again.ovl",
+        scratch.path());
+    EXPECT_EQ(incomplete.exit, 5) << incomplete.output;
+    EXPECT_NE(incomplete.output.find("overlook_images.so, which reads and writes pictures, is neither in "), std::string::npos)
+        << incomplete.output;
 
     auto refused = shell::run("build/read_terrain sample/dem.tif 0", scratch.path());
     EXPECT_EQ(refused.exit, 3) << refused.output;

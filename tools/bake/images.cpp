@@ -1,39 +1,19 @@
-// OpenImageIO, whose only source file in the bakers is this one.
+// Pictures in and out: what can be told of a file without decoding it. The rest is the module's (image_library.cpp).
 
 #include "tools/bake/images.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <memory>
-#include <new>
-#include <span>
-#include <stdexcept>
+#include <utility>
 
 #include "formats/mapped_file.h"
 #include "formats/parallel.h"
+#include "tools/bake/image_library.h"
+#include "tools/bake/image_module.h"
 #include "tools/bake/png_check.h"
 
 namespace overlook {
 namespace {
-
-using OIIO::ImageInput;
-using OIIO::ImageSpec;
-using OIIO::TypeDesc;
-
-constexpr uint64_t kMostSamples = uint64_t(1) << 31;
-
-// Messages of the library may have several lines, and name the file again: their first words, on one line.
-std::string gist(std::string text) {
-    std::string line;
-    for (const char c : text) line.push_back(c == '\n' || c == '\r' || c == '\t' ? ' ' : c);
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    if (line.size() > 200) line = line.substr(0, 200) + "...";
-    return line.empty() ? "it does not decode" : line;
-}
 
 // Which of the library's readers a file needs: by its first bytes, so that a wrong extension does not matter, or by its
 // extension. Asking for one reader by name keeps the others (some of which print) from trying.
@@ -51,234 +31,45 @@ std::string reader_of(const std::string& path, std::span<const std::byte> bytes)
     return extension;
 }
 
-// An opened image. The library prints an error that nobody fetched, so closing fetches it.
-struct OpenImage {
-    std::unique_ptr<ImageInput> input;
-    ImageSpec spec;
-    std::string path;
-
-    OpenImage() = default;
-    OpenImage(OpenImage&&) = default;
-    OpenImage& operator=(OpenImage&&) = default;
-    ~OpenImage() {
-        if (input) input->geterror();
-    }
-    tl::unexpected<Error> failure() const { return bad_input("{}: cannot be decoded: {}", path, gist(input->geterror())); }
-};
-
-Result<OpenImage> open_image(const std::string& path) {
-    OpenImage image;
-    image.path = path;
+// Looks at a file before the library does.
+Result<PictureFile> look_at(const std::string& path) {
     Result<MappedFile> file = MappedFile::open(path);
     if (!file) return tl::unexpected(file.error());
-    const std::string reader = reader_of(path, file->bytes());
-    if (reader == "png")
+    PictureFile picture{path, reader_of(path, file->bytes()), int(thread_count())};
+    if (picture.reader.empty()) return bad_input("{}: is no picture of a known form", path);
+    if (picture.reader == "png")
         if (auto whole = check_png(file->bytes(), path); !whole) return tl::unexpected(whole.error());
-    if (!reader.empty()) image.input = ImageInput::create(reader);
-    if (!image.input) {
-        OIIO::geterror();
-        return bad_input("{}: is no picture of a known form", path);
-    }
-    image.input->threads(int(thread_count()));
-    ImageSpec as_stored;
-    as_stored.attribute("oiio:RawColor", 1);
-    as_stored.attribute("oiio:UnassociatedAlpha", 1);
-    if (!image.input->open(path, image.spec, as_stored)) return image.failure();
-    const ImageSpec& spec = image.spec;
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
-        return bad_input("{}: its size is {} x {} x {} with {} channels", path, spec.width, spec.height, spec.depth,
-                         spec.nchannels);
-    return image;
-}
-
-// Rows [begin, end) of columns [left, right) in the type that the file stores, in a buffer of all rows that had to be decoded.
-struct Band {
-    std::vector<std::byte> bytes;
-    uint32_t first_row = 0;
-    uint32_t first_column = 0;
-    size_t bytes_per_row = 0;
-};
-
-// Reads the tiles, or the whole rows, that cover part of an image. Cost: samples decoded.
-Result<Band> read_band(OpenImage& image, const ImageWindow& part) {
-    const ImageSpec& spec = image.spec;
-    const uint32_t tile_width = spec.tile_width > 0 ? uint32_t(spec.tile_width) : uint32_t(spec.width);
-    const uint32_t tile_height = spec.tile_width > 0 ? uint32_t(spec.tile_height) : 1;
-    const auto down_to = [](uint32_t value, uint32_t step) { return value / step * step; };
-    const auto up_to = [](uint32_t value, uint32_t step, uint32_t most) {
-        return uint32_t(std::min<uint64_t>((uint64_t(value) + step - 1) / step * step, most));
-    };
-    const uint32_t left = down_to(part.x, tile_width), right = up_to(part.x + part.width, tile_width, uint32_t(spec.width));
-    const uint32_t top = down_to(part.y, tile_height), bottom = up_to(part.y + part.height, tile_height, uint32_t(spec.height));
-
-    Band band;
-    band.first_row = top;
-    band.first_column = left;
-    band.bytes_per_row = size_t(right - left) * size_t(spec.nchannels) * spec.format.size();
-    band.bytes.resize(band.bytes_per_row * (bottom - top));
-    const int x0 = spec.x + int(left), x1 = spec.x + int(right), y0 = spec.y + int(top), y1 = spec.y + int(bottom);
-    const bool is_read =
-        spec.tile_width > 0
-            ? image.input->read_tiles(0, 0, x0, x1, y0, y1, spec.z, spec.z + 1, 0, spec.nchannels, spec.format, band.bytes.data())
-            : image.input->read_scanlines(0, 0, y0, y1, spec.z, 0, spec.nchannels, spec.format, band.bytes.data());
-    if (!is_read || image.input->has_error()) return image.failure();
-    return band;
-}
-
-// How many rows to decode at a time: whole tiles, and enough rows that a strip is seldom decoded twice.
-uint32_t rows_at_a_time(const ImageSpec& spec) {
-    if (spec.tile_width > 0) return uint32_t(spec.tile_height);
-    const int strip = spec.get_int_attribute("tiff:RowsPerStrip", 1);
-    const uint32_t rows = uint32_t(std::clamp(strip, 1, spec.height));
-    return (64 + rows - 1) / rows * rows;
-}
-
-// Calls take(band, row) for every row of a window, top to bottom.
-template <class Take>
-Result<void> for_each_row(OpenImage& image, const ImageWindow& window, const Take& take) {
-    const uint32_t step = rows_at_a_time(image.spec);
-    const uint32_t end = window.y + window.height;
-    for (uint32_t y = window.y; y < end;) {
-        const uint32_t next = uint32_t(std::min<uint64_t>((uint64_t(y) / step + 1) * step, end));
-        Result<Band> band = read_band(image, {window.x, y, window.width, next - y});
-        if (!band) return tl::unexpected(band.error());
-        for (; y < next; ++y) take(*band, y);
-    }
-    return {};
-}
-
-template <class T>
-void convert_row(const std::byte* from, uint32_t count, float* to) {
-    for (uint32_t i = 0; i < count; ++i) {
-        T value;
-        std::memcpy(&value, from + i * sizeof(T), sizeof(T));
-        to[i] = float(value);
-    }
-}
-
-using Convert = void (*)(const std::byte* from, uint32_t count, float* to);
-Convert converter_of(TypeDesc type) {
-    switch (type.basetype) {
-        case TypeDesc::INT8:
-            return convert_row<int8_t>;
-        case TypeDesc::UINT8:
-            return convert_row<uint8_t>;
-        case TypeDesc::INT16:
-            return convert_row<int16_t>;
-        case TypeDesc::UINT16:
-            return convert_row<uint16_t>;
-        case TypeDesc::FLOAT:
-            return convert_row<float>;
-        default:
-            return nullptr;
-    }
-}
-
-Result<ImageWindow> resolved(const OpenImage& image, const ImageWindow& window) {
-    const uint32_t width = uint32_t(image.spec.width), height = uint32_t(image.spec.height);
-    const ImageWindow part = window.width == 0 ? ImageWindow{0, 0, width, height} : window;
-    if (part.height == 0 || part.x > width || part.width > width - part.x || part.y > height || part.height > height - part.y)
-        return bad_input("{}: the window {},{} {}x{} reaches beyond the raster, which has {} x {} samples", image.path, part.x,
-                         part.y, part.width, part.height, width, height);
-    if (uint64_t(part.width) * part.height > kMostSamples)
-        return impossible("{}: {} x {} samples are more than the {} that fit; read it in parts with --window", image.path,
-                          part.width, part.height, kMostSamples);
-    return part;
-}
-
-Result<NumberRaster> read_numbers(const std::string& path, const ImageWindow& window) {
-    Result<OpenImage> image = open_image(path);
-    if (!image) return tl::unexpected(image.error());
-    const ImageSpec& spec = image->spec;
-    if (spec.nchannels != 1)
-        return bad_input("{}: has {} channels, an elevation model has one; is it a picture?", path, spec.nchannels);
-    const Convert convert = converter_of(spec.format);
-    if (!convert || !spec.channelformats.empty())
-        return bad_input("{}: its samples are of type {}; read are 8- and 16-bit integers and 32-bit floats", path,
-                         spec.format.c_str());
-    Result<ImageWindow> part = resolved(*image, window);
-    if (!part) return tl::unexpected(part.error());
-
-    NumberRaster raster;
-    raster.width = part->width;
-    raster.height = part->height;
-    raster.values_are_integers = spec.format != TypeDesc::FLOAT;
-    raster.values.resize(size_t(part->width) * part->height);
-    const auto read = for_each_row(*image, *part, [&](const Band& band, uint32_t y) {
-        const std::byte* from =
-            band.bytes.data() + band.bytes_per_row * (y - band.first_row) + (part->x - band.first_column) * spec.format.size();
-        convert(from, part->width, raster.values.data() + size_t(part->width) * (y - part->y));
-    });
-    if (!read) return tl::unexpected(read.error());
-    return raster;
-}
-
-// One row of any type and number of channels as 8-bit RGB.
-void spread_to_rgb(const uint8_t* from, uint32_t count, int channels, uint8_t* to) {
-    for (uint32_t i = 0; i < count; ++i, from += channels, to += 3) {
-        to[0] = from[0];
-        to[1] = channels >= 3 ? from[1] : from[0];
-        to[2] = channels >= 3 ? from[2] : from[0];
-    }
-}
-
-Result<ImageRgb8> read_rgb8(const std::string& path) {
-    Result<OpenImage> image = open_image(path);
-    if (!image) return tl::unexpected(image.error());
-    const ImageSpec& spec = image->spec;
-    Result<ImageWindow> part = resolved(*image, {});
-    if (!part) return tl::unexpected(part.error());
-
-    ImageRgb8 picture;
-    picture.width = part->width;
-    picture.height = part->height;
-    picture.pixels.resize(size_t(3) * part->width * part->height);
-    std::vector<uint8_t> row(size_t(part->width) * size_t(spec.nchannels));
-    const auto read = for_each_row(*image, *part, [&](const Band& band, uint32_t y) {
-        OIIO::convert_pixel_values(spec.format, band.bytes.data() + band.bytes_per_row * (y - band.first_row), TypeDesc::UINT8,
-                                   row.data(), int(row.size()));
-        spread_to_rgb(row.data(), part->width, spec.nchannels, picture.pixels.data() + size_t(3) * part->width * y);
-    });
-    if (!read) return tl::unexpected(read.error());
     return picture;
 }
 
-// Runs a reader and turns what the library throws into an error.
+// Reads a file with one of the module's functions.
 template <class Read>
-auto guarded(const std::string& path, const Read& read) -> decltype(read()) {
-    try {
-        return read();
-    } catch (const std::bad_alloc&) {
-        return impossible("{}: does not fit into memory; read it in parts with --window", path);
-    } catch (const std::length_error&) {
-        return impossible("{}: does not fit into memory; read it in parts with --window", path);
-    } catch (const std::exception& problem) {
-        return bad_input("{}: cannot be decoded: {}", path, gist(problem.what()));
-    }
+auto read_with_library(const std::string& path, const Read& read)
+    -> decltype(read(std::declval<const ImageLibrary&>(), PictureFile{})) {
+    const Result<PictureFile> file = look_at(path);
+    if (!file) return tl::unexpected(file.error());
+    const Result<const ImageLibrary*> library = image_library();
+    if (!library) return tl::unexpected(library.error());
+    return read(**library, *file);
 }
 
 }  // namespace
 
 Result<NumberRaster> read_number_raster(const std::string& path, const ImageWindow& window) {
-    return guarded(path, [&] { return read_numbers(path, window); });
+    return read_with_library(
+        path, [&](const ImageLibrary& library, const PictureFile& file) { return library.read_numbers(file, window); });
 }
 
 Result<ImageRgb8> read_image_rgb8(const std::string& path) {
-    return guarded(path, [&] { return read_rgb8(path); });
+    return read_with_library(path, [](const ImageLibrary& library, const PictureFile& file) { return library.read_rgb8(file); });
 }
 
-std::optional<PictureSize> picture_size(const std::string& name, std::span<const std::byte> bytes) {
-    const std::string reader = reader_of(name, bytes);
-    if (bytes.empty() || (reader == "png" && !check_png(bytes, name))) return std::nullopt;
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-    OpenImage image;
-    if (!reader.empty()) image.input = ImageInput::create(reader);
-    OIIO::geterror();
-    if (!image.input || !image.input->set_ioproxy(&memory) || !image.input->open(name, image.spec)) return std::nullopt;
-    if (image.spec.width <= 0 || image.spec.height <= 0) return std::nullopt;
-    PictureSize size{uint32_t(image.spec.width), uint32_t(image.spec.height)};
-    image.input->close();
-    return size;
+Result<std::optional<PictureSize>> picture_size(const std::string& name, std::span<const std::byte> bytes) {
+    const PictureFile file{name, reader_of(name, bytes), 1};
+    if (bytes.empty() || file.reader.empty() || (file.reader == "png" && !check_png(bytes, name))) return std::nullopt;
+    const Result<const ImageLibrary*> library = image_library();
+    if (!library) return tl::unexpected(library.error());
+    return (*library)->size_of(file, bytes);
 }
 
 Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image) {
@@ -286,19 +77,9 @@ Result<std::vector<std::byte>> png_bytes(const ImageRgb8& image) {
 }
 
 Result<std::vector<std::byte>> png_bytes(uint32_t width, uint32_t height, int channels, std::span<const uint8_t> pixels) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    ImageSpec spec(int(width), int(height), channels, TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    bool is_written = output && output->set_ioproxy(&memory) && output->open("picture.png", spec) &&
-                      output->write_image(TypeDesc::UINT8, pixels.data()) && output->close();
-    if (!is_written)
-        return cannot_write("a picture of {} x {} pixels cannot be written as PNG: {}", width, height,
-                            gist(output ? output->geterror() : OIIO::geterror()));
-    std::span<const std::byte> written = std::as_bytes(std::span(bytes));
-    return std::vector<std::byte>(written.begin(), written.end());
+    const Result<const ImageLibrary*> library = image_library();
+    if (!library) return tl::unexpected(library.error());
+    return (*library)->write_png(width, height, channels, pixels);
 }
 
 }  // namespace overlook

@@ -1,4 +1,5 @@
-// Pictures and rasters of numbers in, and pictures out, through OpenImageIO (whose only source file in the bakers is images.cpp).
+// Pictures and rasters of numbers in, and pictures out, through OpenImageIO, which is in a module of its own that the first call
+// here opens (image_module.h); where it cannot be opened each function fails with image_library()'s error.
 #pragma once
 
 #include <cstddef>
@@ -32,11 +33,11 @@ Result<NumberRaster> read_number_raster(const std::string& path, const ImageWind
 Result<ImageRgb8> read_image_rgb8(const std::string& path);
 
 // Width and height in pixels of a picture file's bytes (PNG, JPEG and what else OpenImageIO reads; `name` tells by its extension
-// where the bytes do not). Reads the header alone. Nothing where it is no picture.
+// where the bytes do not). Reads the header alone. Nothing where it is no picture; bytes that cannot be one open no module.
 struct PictureSize {
     uint32_t width_px = 0, height_px = 0;
 };
-std::optional<PictureSize> picture_size(const std::string& name, std::span<const std::byte> bytes);
+Result<std::optional<PictureSize>> picture_size(const std::string& name, std::span<const std::byte> bytes);
 
 // A picture as a PNG file's bytes: 8-bit RGB, sRGB. width and height >= 1. Same picture, same bytes: no date, no program's name.
 // Fails with Exit::cannot_write: "a picture of 512 x 512 pixels cannot be written as PNG: ..." with the library's reason.

@@ -232,7 +232,11 @@ int bake_mesh(MeshArgs args, const command::Common& common) {
     done.input = std::move(file->report);
     caveclod::BakeOptions options = args.choices.bake;
     options.source_rounding_m = done.input.rounding_m;
-    if (options.simplify.seams.moves) options.simplify.seams.texture_px = mesh::texture_sizes_px(file->mesh);
+    if (options.simplify.seams.moves) {
+        auto sizes_px = mesh::texture_sizes_px(file->mesh);
+        if (!sizes_px) return command::fail(kName, sizes_px.error());
+        options.simplify.seams.texture_px = std::move(*sizes_px);
+    }
     done.read_s = seconds_since(begin);
 
     begin = std::chrono::steady_clock::now();

@@ -91,7 +91,9 @@ int verify_mesh(const VerifyArgs& args, const container::Reader& file, const com
     options.cut_count = args.cuts;
     options.seed = common.seed;
     caveclod::SeamBudget seams = choices->bake.simplify.seams;
-    seams.texture_px = mesh::texture_sizes_px(source->mesh);
+    auto sizes_px = mesh::texture_sizes_px(source->mesh);
+    if (!sizes_px) return command::fail(kName, sizes_px.error());
+    seams.texture_px = std::move(*sizes_px);
     caveclod::Proof proof = caveclod::prove(*hierarchy, source->mesh, seams, options, [&](double done) { progress.set(done); });
     if (common.json)
         fmt::print("{}\n", json_of(proof).dump(2));

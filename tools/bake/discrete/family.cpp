@@ -92,7 +92,11 @@ Result<Family> Family::make(const mesh::MeshFile& file, const MeshChainOptions& 
     family.size_m_ = size_of(file.mesh);
     MeshChainOptions chosen = options;
     chosen.bake.source_rounding_m = file.report.rounding_m;
-    if (chosen.bake.simplify.seams.moves) chosen.bake.simplify.seams.texture_px = mesh::texture_sizes_px(file.mesh);
+    if (chosen.bake.simplify.seams.moves) {
+        auto sizes_px = mesh::texture_sizes_px(file.mesh);
+        if (!sizes_px) return tl::unexpected(sizes_px.error());
+        chosen.bake.simplify.seams.texture_px = std::move(*sizes_px);
+    }
     auto part_count = uint32_t(file.motion.parts.size() + 1);
     if (part_count > kMostParts) return impossible("more than {} parts move, {} can", part_count - 1, kMostParts - 1);
     double done = 0;
