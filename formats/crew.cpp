@@ -36,7 +36,7 @@ class Crew {
 
     void work(unsigned most, const std::function<void(unsigned)>& body) {
         std::unique_lock mine(in_use_, std::try_to_lock);
-        unsigned others = std::min(most, thread_count()) - 1;
+        unsigned others = std::max(1u, std::min(most, thread_count())) - 1;
         if (!mine.owns_lock() || others == 0 || !hire(others)) {
             body(0);
             return;

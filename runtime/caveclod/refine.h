@@ -65,6 +65,8 @@ class Refinement {
     // of it: without looking at faces where that is at most enough_px. Cost O(faces) at most.
     double displaced_px(const view::Camera& camera, const Settings& settings, double error_m, double enough_px) const;
     const Mesh& mesh() const { return mesh_; }
+    // Pieces that a frame's looking falls into, which refine_all() shares out.
+    size_t part_count() const;
 
     struct Bytes {
         uint64_t fixed = 0;   // whatever is drawn: bits
@@ -108,7 +110,6 @@ class Refinement {
 
     // refine() in three steps: between the first and the last any threads may look at parts, each once.
     void begin(Frame& frame, double dt_s);
-    size_t part_count() const;
     void look(const Frame& frame, size_t part);
     void finish(Frame& frame);
 
@@ -155,7 +156,8 @@ class Refinement {
     std::vector<double> inside_;        // [as sources_] how far inside its face a vertex lies, least barycentric coordinate
 };
 
-// Refines each camera's own, several at once; the result is that of one after the other. All spans of one length.
+// Refines each camera's own, several at once; the result is that of one after the other. All spans of one length. Takes no more
+// threads than there are parts.
 void refine_all(std::span<Refinement* const> refinements, std::span<const view::Camera> cameras, const Settings& settings,
                 double dt_s, std::span<FrameReport> reports);
 

@@ -9,7 +9,7 @@
 namespace overlook::caveclod {
 namespace {
 
-constexpr size_t kPartWords = 32;
+constexpr size_t kPartWords = 32, kPartSplits = 64 * kPartWords;
 
 // The bounds of what is appended lie scattered over the mesh: they are asked for long before they are read.
 void append_bits(const Mesh& mesh, size_t word, uint64_t bits, std::vector<uint32_t>& splits) {
@@ -28,7 +28,7 @@ void Refinement::Found::clear() {
 }
 
 size_t Refinement::part_count() const {
-    return (open_.size() + kPartWords - 1) / kPartWords;
+    return (size_t(mesh_.split_count()) + kPartSplits - 1) / kPartSplits;
 }
 
 // All that could change of a part.

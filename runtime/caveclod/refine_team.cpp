@@ -80,7 +80,9 @@ void refine_all(std::span<Refinement* const> refinements, std::span<const view::
         return;
     }
     TeamFrame frame(refinements, cameras, settings, dt_s, reports);
-    work_together(thread_count(), [&](unsigned worker) { frame.work(worker); });
+    size_t most = 0;
+    for (const Refinement* refinement : refinements) most += std::max<size_t>(refinement->part_count(), 1);
+    work_together(unsigned(std::min<size_t>(most, thread_count())), [&](unsigned worker) { frame.work(worker); });
 }
 
 void refine_in_turn(Refinement& shared, std::span<const view::Camera> cameras, const Settings& settings,

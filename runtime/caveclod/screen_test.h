@@ -129,8 +129,12 @@ class ScreenTest {
     // With P what is kept, collapse_share * error_px: a secant is at least 1, so that what is applied in the wide sector stays if
     // its least depth is at most f * e / P + e. Answers false as well where it cannot tell.
     bool is_kept(const Sphere& of) const { return !tests_cones_ && is_larger(of, wide_); }
-    // The same of what must be split, where no band lies between.
-    bool is_surely_split(const Sphere& of) const { return collapse_share_ == 1 && !culls_back_faces_ && is_larger(of, narrow_); }
+    // The same of what must be split, where no band lies between. Behind the eye a sphere may reach the narrow sector's planes
+    // and not the wide one's.
+    bool is_surely_split(const Sphere& of) const {
+        return collapse_share_ == 1 && !culls_back_faces_ && is_larger(of, narrow_) &&
+               wide_.holds(bound_.place_of(of.from_eye_m), of.radius_m);
+    }
 
   private:
     static constexpr double kRounding = 1e-9;  // what the shorter way may round otherwise

@@ -151,13 +151,11 @@ void Drawing::upload_visibilities() {
     std::vector<PackedVisibility> table;
     std::vector<uint8_t> values;
     for (const Visibility& one : visibilities_of(*chain_)) {
-        uint32_t first = uint32_t(values.size());
-        // Those that are the same are stored once.
-        for (size_t i = 0; i < table.size(); ++i) {
-            if (chain_->visibility.size() <= 1) first = table[i].first;
-        }
+        // One for all changes is stored once.
+        bool is_shared = chain_->visibility.size() <= 1 && !table.empty();
+        uint32_t first = is_shared ? table.front().first : uint32_t(values.size());
         table.push_back({uint32_t(one.lookup), one.width, one.height, one.depth, one.period_m, first, {0, 0}});
-        if (first == values.size()) values.insert(values.end(), one.values.begin(), one.values.end());
+        if (!is_shared) values.insert(values.end(), one.values.begin(), one.values.end());
         layout_.visibilities.push_back(one);
         layout_.visibilities.back().values.clear();
     }
@@ -231,27 +229,38 @@ void Drawing::draw_background(const view::Camera& camera, const DrawOptions& opt
     gl::draw_background(background_, camera, part, nothing_);
 }
 
-uint64_t Drawing::draw(const gl::Target& target, ListBuffers& buffers, const DrawList& list, const DrawOptions& options) const {
+uint64_t draw(const gl::Target& target, std::span<const Drawn> parts, const DrawOptions& options) {
     target.bind();
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     if (options.is_wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    draw_calls(one_picture_, buffers, list, list.whole_calls, options);
+    uint64_t call_count = 1;
+    std::vector<const DrawList*> lists;
+    for (const Drawn& part : parts) {
+        part.drawing->draw_calls(part.drawing->one_picture(), *part.buffers, *part.list, part.list->whole_calls, options);
+        call_count += part.list->whole_calls.size();
+        lists.push_back(part.list);
+    }
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    draw_background(list.camera, options);
-    if (!list.translucent_calls.empty()) {
+    parts.front().drawing->draw_background(lists.front()->camera, options);
+    std::vector<ListedCalls> translucent = translucent_calls(lists);
+    if (!translucent.empty()) {
         // Over what is there, at the same depth as well; nothing translucent hides anything (Giegl and Wimmer 2007).
         glEnable(GL_BLEND);
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_GEQUAL);
-        draw_calls(one_picture_, buffers, list, list.translucent_calls, options);
+        for (const ListedCalls& one : translucent) {
+            const Drawn& part = parts[one.list];
+            part.drawing->draw_calls(part.drawing->one_picture(), *part.buffers, *part.list, one.calls, options);
+            call_count += one.calls.size();
+        }
         glDepthFunc(GL_GREATER);
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
     target.resolve();
-    return list.whole_calls.size() + list.translucent_calls.size() + 1;
+    return call_count;
 }
 
 }  // namespace overlook::discrete

@@ -57,9 +57,6 @@ class Drawing {
                     const DrawOptions& options) const;
     // Fills the pixels in which nothing is drawn yet; their depth stays as far as it was.
     void draw_background(const view::Camera& camera, const DrawOptions& options) const;
-    // All of a list in one picture: background, what is whole, what is translucent, resolved. Returns the calls made.
-    uint64_t draw(const gl::Target& target, ListBuffers& buffers, const DrawList& list, const DrawOptions& options) const;
-
   private:
     struct Look {
         gl::Texture picture;
@@ -81,5 +78,15 @@ class Drawing {
     std::vector<std::string> faults_;
     uint64_t bytes_ = 0;
 };
+
+// A chain's part of a picture: a list of its own, and the buffers that are filled with it.
+struct Drawn {
+    const Drawing* drawing = nullptr;
+    const ListBuffers* buffers = nullptr;
+    const DrawList* list = nullptr;
+};
+// Lists of several chains, of one camera, in one picture: what is whole, background, what is translucent, resolved. parts: at
+// least one. Returns the calls made.
+uint64_t draw(const gl::Target& target, std::span<const Drawn> parts, const DrawOptions& options);
 
 }  // namespace overlook::discrete

@@ -1,81 +1,111 @@
 #include "runtime/discrete/draw_frames.h"
 
+#include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "runtime/discrete/select.h"
 
 namespace overlook::discrete {
 
-FrameDrawer::FrameDrawer(const Drawing& drawing, std::span<const Placement> placements, const FrameOptions& options)
-    : drawing_(drawing),
-      director_(facts_of(drawing.chain()), placements, options),
-      placed_before_(placements.begin(), placements.end()) {
-    director_.set_grain_m(drawing.grain_m());
+FrameDrawer::FrameDrawer(std::span<const Stand> stands, const FrameOptions& options) : options_(options) {
+    uint32_t instance_count = 0;
+    for (const Stand& stand : stands) {
+        Director director(facts_of(stand.drawing->chain()), stand.placements, options);
+        director.set_grain_m(stand.drawing->grain_m());
+        std::vector<Placement> placed(stand.placements.begin(), stand.placements.end());
+        groups_.push_back({stand.drawing, std::move(director), instance_count, {}, {}, {}, std::move(placed)});
+        instance_count += uint32_t(stand.placements.size());
+    }
 }
 
-Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const Drawing& drawing, std::span<const Placement> placements,
-                                                       const FrameOptions& options) {
-    std::unique_ptr<FrameDrawer> made(new FrameDrawer(drawing, placements, options));
+Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(std::span<const Stand> stands, const FrameOptions& options) {
+    assert(!stands.empty());
+    std::unique_ptr<FrameDrawer> made(new FrameDrawer(stands, options));
     if (Result<void> turns = made->make_turns(); !turns) return tl::unexpected(turns.error());
     return made;
 }
 
+Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const Drawing& drawing, std::span<const Placement> placements,
+                                                       const FrameOptions& options) {
+    Stand one{&drawing, placements};
+    return make(std::span(&one, 1), options);
+}
+
 Result<void> FrameDrawer::make_turns() {
     turns_.reset();
-    if (!draws_by_turns(director_.options().variant)) return {};
-    Result<Turns> turns = Turns::make(drawing_, director_.options());
+    if (!draws_by_turns(options_.variant)) return {};
+    Result<Turns> turns = Turns::make(*groups_.front().drawing, options_);
     if (!turns) return tl::unexpected(turns.error());
     turns_.emplace(std::move(*turns));
     return {};
 }
 
-void FrameDrawer::place(std::span<const Placement> placements) {
-    director_.place(placements);
+void FrameDrawer::place(std::span<const Placement> placements, size_t chain) {
+    groups_[chain].director.place(placements);
 }
 
 Result<void> FrameDrawer::change(const FrameOptions& options) {
-    FrameOptions before = director_.options();
-    director_.change(options);
+    FrameOptions before = std::exchange(options_, options);
+    for (Group& group : groups_) group.director.change(options);
     bool draws_alike = before.variant == options.variant && before.remedies == options.remedies &&
                        before.is_half_precise == options.is_half_precise;
     return draws_alike ? Result<void>() : make_turns();
 }
 
-void FrameDrawer::decide(const view::Camera& camera, double dt_s, double clip_s) {
-    director_.decide(camera, dt_s);
-    ++frame_;
-    const FrameList& frame = director_.frame();
-    const std::vector<Placement>& placed = director_.placements();
-    std::swap(before_, now_);
-    now_ = draw_list(drawing_.layout(), drawing_.chain(), frame, placed, camera, clip_s);
-    has_before_ = frame_ > 1 && before_.camera.width_px == camera.width_px && before_.camera.height_px == camera.height_px;
-    if (turns_) {
-        const view::Camera& old_camera = has_before_ ? before_.camera : camera;
-        combination_ = combination_of(director_.options(), frame, director_.facts(), placed_before_, placed, old_camera, camera);
-        placed_before_ = placed;
+void FrameDrawer::decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s) {
+    Director& director = group.director;
+    director.decide(camera, dt_s);
+    const FrameList& frame = director.frame();
+    std::swap(group.before, group.now);
+    group.now = draw_list(group.drawing->layout(), group.drawing->chain(), frame, director.placements(), camera, clip_s,
+                          group.first_instance);
+    counts_.triangle_count += frame.triangle_count;
+    counts_.tested_count += frame.tested_count;
+    counts_.in_view_count += frame.in_view_count;
+    counts_.begun_count += frame.begun_count;
+    counts_.fading_count += frame.fading.size();
+    counts_.state_bytes += director.bytes();
+    counts_.error_px = std::max(counts_.error_px, frame.error_px);
+}
+
+Combination FrameDrawer::combination_for(const view::Camera& camera) const {
+    std::vector<UnderWay> all;
+    for (const Group& group : groups_) {
+        const Director& director = group.director;
+        all.push_back(
+            {&director.frame(), &director.facts(), group.placed_before, director.placements(), group.first_instance});
     }
+    return combination_of(options_, all, has_before_ ? groups_.front().before.camera : camera, camera);
+}
+
+void FrameDrawer::decide(const view::Camera& camera, double dt_s, double clip_s) {
     counts_ = {};
-    counts_.triangle_count = frame.triangle_count;
-    counts_.tested_count = frame.tested_count;
-    counts_.in_view_count = frame.in_view_count;
-    counts_.begun_count = frame.begun_count;
-    counts_.fading_count = frame.fading.size();
-    counts_.state_bytes = director_.bytes();
-    counts_.error_px = frame.error_px;
+    for (Group& group : groups_) decide_group(group, camera, dt_s, clip_s);
+    ++frame_;
+    const view::Camera& old_camera = groups_.front().before.camera;
+    has_before_ = frame_ > 1 && old_camera.width_px == camera.width_px && old_camera.height_px == camera.height_px;
+    if (turns_) combination_ = combination_for(camera);
+    for (Group& group : groups_) group.placed_before = group.director.placements();
 }
 
 Result<FrameCounts> FrameDrawer::draw(const gl::Target& target, const DrawOptions& look) {
     FrameCounts counts = counts_;
-    if (!turns_) {
-        counts.uploaded_bytes = lists_.fill(now_);
-        counts.draw_call_count = drawing_.draw(target, lists_, now_, look);
+    if (turns_) {
+        std::vector<TurnPart> parts;
+        for (const Group& group : groups_) parts.push_back({group.drawing, &group.now, &group.before});
+        Result<uint64_t> calls = turns_->draw(target, look, frame_, parts, has_before_, combination_, counts.uploaded_bytes);
+        if (!calls) return tl::unexpected(calls.error());
+        counts.draw_call_count = *calls;
+        counts.resident_bytes = turns_->bytes(target.samples());
         return counts;
     }
-    const DrawList* before = has_before_ ? &before_ : nullptr;
-    Result<uint64_t> calls = turns_->draw(target, look, frame_, now_, before, combination_, counts.uploaded_bytes);
-    if (!calls) return tl::unexpected(calls.error());
-    counts.draw_call_count = *calls;
-    counts.resident_bytes = turns_->bytes();
+    std::vector<Drawn> parts;
+    for (Group& group : groups_) {
+        counts.uploaded_bytes += group.buffers.fill(group.now);
+        parts.push_back({group.drawing, &group.buffers, &group.now});
+    }
+    counts.draw_call_count = discrete::draw(target, parts, look);
     return counts;
 }
 

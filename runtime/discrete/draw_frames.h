@@ -28,18 +28,26 @@ struct FrameCounts {
     double error_px = 0;          // the greatest bound of what is drawn, against the finest level
 };
 
-// Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
-// picture. The drawing must outlive it, a context be current.
+// A chain, and where it stands.
+struct Stand {
+    const Drawing* drawing = nullptr;  // must outlive what draws it
+    std::span<const Placement> placements;
+};
+
+// Chains that stand in one picture. Frames come in their order: each decide(), then draw(), then perhaps draw() again into other
+// targets, which gives the same picture. A context must be current.
 class FrameDrawer {
   public:
-    // Fails with Exit::our_bug if a shader of ours does not compile.
+    // stands: one at least, 2^32 - 2 placements in all at most. Fails with Exit::our_bug if a shader of ours does not compile.
+    static Result<std::unique_ptr<FrameDrawer>> make(std::span<const Stand> stands, const FrameOptions& options);
+    // Of one chain.
     static Result<std::unique_ptr<FrameDrawer>> make(const Drawing& drawing, std::span<const Placement> placements,
                                                      const FrameOptions& options);
     FrameDrawer(const FrameDrawer&) = delete;
     FrameDrawer& operator=(const FrameDrawer&) = delete;
 
-    // From the next frame on they stand there; as many as before.
-    void place(std::span<const Placement> placements);
+    // From the next frame on those of a chain, by its place among the stands, stand there; as many as before.
+    void place(std::span<const Placement> placements, size_t chain = 0);
     // dt_s: since the last frame; clip_s: where the parts' clip is, any time. Another size than the frame's before forgets that
     // one's picture.
     void decide(const view::Camera& camera, double dt_s, double clip_s);
@@ -48,19 +56,27 @@ class FrameDrawer {
     // From the next frame on; levels and changes under way stay as they are. Fails as make().
     Result<void> change(const FrameOptions& options);
 
-    const Director& director() const { return director_; }
+    const Director& director(size_t chain = 0) const { return groups_[chain].director; }
     const FrameCounts& counts() const { return counts_; }  // of the frame decided last, before it is drawn
 
   private:
-    FrameDrawer(const Drawing& drawing, std::span<const Placement> placements, const FrameOptions& options);
+    // The instances of one chain.
+    struct Group {
+        const Drawing* drawing = nullptr;
+        Director director;
+        uint32_t first_instance = 0;  // instances of the groups before
+        ListBuffers buffers;
+        DrawList now, before;
+        std::vector<Placement> placed_before;
+    };
+    FrameDrawer(std::span<const Stand> stands, const FrameOptions& options);
     Result<void> make_turns();
+    void decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s);
+    Combination combination_for(const view::Camera& camera) const;
 
-    const Drawing& drawing_;
-    Director director_;
+    FrameOptions options_;
+    std::vector<Group> groups_;
     std::optional<Turns> turns_;
-    ListBuffers lists_;
-    DrawList now_, before_;
-    std::vector<Placement> placed_before_;
     Combination combination_;
     uint64_t frame_ = 0;
     bool has_before_ = false;

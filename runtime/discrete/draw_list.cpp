@@ -15,7 +15,7 @@ PackedItem packed(const ChainLayout& layout, const Item& item, const Placement& 
     made.place_m = glm::vec3(placement.at(layout.origin_m) - camera.position_m);
     made.scale = float(placement.scale), made.cosine = float(placement.cosine), made.sine = float(placement.sine);
     made.share = float(item.share), made.grain = float(item.grain);
-    made.id = item.instance + 1, made.level = item.level, made.show = uint32_t(item.show), made.change = item.change;
+    made.level = item.level, made.show = uint32_t(item.show), made.change = item.change;
     made.is_plain = layout.levels[item.level].is_plain;
     if (item.show == Show::visible) {
         double period_m = double(layout.visibilities[item.change].period_m) * item.grain;
@@ -51,20 +51,20 @@ std::vector<Call> calls_of(std::span<const SurfaceCommand> from, std::vector<Com
 }  // namespace
 
 DrawList draw_list(const ChainLayout& layout, const Chain& chain, const FrameList& frame, std::span<const Placement> placements,
-                   const view::Camera& camera, double time_s) {
+                   const view::Camera& camera, double time_s, uint32_t first_instance) {
     DrawList list;
     list.camera = camera;
     for (const std::vector<Item>* items : {&frame.items, &frame.translucent}) {
-        for (const Item& item : *items) list.items.push_back(packed(layout, item, placements[item.instance], camera));
-    }
-    if (layout.clip_s > 0) {
-        for (PackedItem& item : list.items) {
-            item.first_pose = uint32_t(list.poses.size());
-            append_poses(chain, time_s + clip_begin_s(item.id - 1, layout.clip_s), list.poses);
+        for (const Item& item : *items) {
+            PackedItem& made = list.items.emplace_back(packed(layout, item, placements[item.instance], camera));
+            made.id = first_instance + item.instance + 1;
+            if (layout.clip_s <= 0) continue;
+            made.first_pose = uint32_t(list.poses.size());
+            append_poses(chain, time_s + clip_begin_s(item.instance, layout.clip_s), list.poses);
         }
     }
     // What is whole goes by surface, what is translucent keeps its order.
-    std::vector<SurfaceCommand> whole, translucent;
+    std::vector<SurfaceCommand> whole;
     uint32_t whole_count = uint32_t(frame.items.size());
     for (uint32_t begin = 0, end = 0; begin < whole_count; begin = end) {
         uint32_t level = list.items[begin].level;
@@ -72,10 +72,37 @@ DrawList draw_list(const ChainLayout& layout, const Chain& chain, const FrameLis
         add_run(layout, level, begin, end, whole);
     }
     std::stable_sort(whole.begin(), whole.end(), [](const auto& a, const auto& b) { return a.surface < b.surface; });
-    for (uint32_t i = whole_count; i < list.items.size(); ++i) add_run(layout, list.items[i].level, i, i + 1, translucent);
     list.whole_calls = calls_of(whole, list.commands);
-    list.translucent_calls = calls_of(translucent, list.commands);
+    for (uint32_t i = whole_count; i < list.items.size(); ++i) {
+        const Item& item = frame.translucent[i - whole_count];
+        double distance_m = glm::length(placements[item.instance].at(chain.middle_m) - camera.position_m);
+        std::vector<SurfaceCommand> commands;
+        add_run(layout, item.level, i, i + 1, commands);
+        for (const SurfaceCommand& one : commands) {
+            list.translucent.push_back({distance_m, one.surface, uint32_t(list.commands.size())});
+            list.commands.push_back(one.command);
+        }
+    }
     return list;
+}
+
+std::vector<ListedCalls> translucent_calls(std::span<const DrawList* const> lists) {
+    std::vector<std::pair<uint32_t, Translucent>> all;
+    for (uint32_t list = 0; list < lists.size(); ++list) {
+        for (const Translucent& one : lists[list]->translucent) all.emplace_back(list, one);
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.second.distance_m > b.second.distance_m; });
+    std::vector<ListedCalls> runs;
+    for (const auto& [list, one] : all) {
+        if (runs.empty() || runs.back().list != list) runs.push_back({list, {}});
+        std::vector<Call>& calls = runs.back().calls;
+        bool goes_on = !calls.empty() && calls.back().surface == one.surface &&
+                       calls.back().first_command + calls.back().command_count == one.command;
+        if (!goes_on) calls.push_back({one.surface, one.command, 0});
+        ++calls.back().command_count;
+    }
+    return runs;
 }
 
 }  // namespace overlook::discrete

@@ -32,6 +32,14 @@ struct Command {
 // Commands of one surface that stand one after the other: one call.
 struct Call {
     uint32_t surface = 0, first_command = 0, command_count = 0;
+
+    bool operator==(const Call&) const = default;
+};
+
+// A command of something translucent.
+struct Translucent {
+    double distance_m = 0;  // from the eye to the middle of the instance
+    uint32_t surface = 0, command = 0;
 };
 
 // What of a chain a list is made by: where each level lies in the one vertex and the one index buffer.
@@ -55,12 +63,25 @@ struct DrawList {
     view::Camera camera;
     std::vector<PackedItem> items;  // those that are translucent last
     std::vector<Command> commands;
-    std::vector<Call> whole_calls, translucent_calls;
+    std::vector<Call> whole_calls;
+    std::vector<Translucent> translucent;  // back to front
     std::vector<PartPose> poses;
 };
 
-// chain: what moves; layout must be its own. time_s: of the clip.
+// chain: what moves; layout must be its own. time_s: of the clip. first_instance: how many instances there are of chains before
+// this one in the same picture, so that ids are unique.
 DrawList draw_list(const ChainLayout& layout, const Chain& chain, const FrameList& frame, std::span<const Placement> placements,
-                   const view::Camera& camera, double time_s);
+                   const view::Camera& camera, double time_s, uint32_t first_instance = 0);
+
+// Calls of one of several lists.
+struct ListedCalls {
+    uint32_t list = 0;
+    std::vector<Call> calls;
+
+    bool operator==(const ListedCalls&) const = default;
+};
+// What is translucent of all lists of one picture, back to front: neighbours of one list stand together, those of one surface are
+// one call.
+std::vector<ListedCalls> translucent_calls(std::span<const DrawList* const> lists);
 
 }  // namespace overlook::discrete

@@ -31,10 +31,30 @@ gl::Texture make_texture(GLenum format, const gl::Target& target) {
     return gl::Texture(id);
 }
 
-PackedMoved packed(const Fading& fading, const Reprojection& moved, const Extent& extent) {
+// Something under way: of which chain, and how near its middle is.
+struct Near {
+    const UnderWay* chain = nullptr;
+    Fading fading;
+    glm::dvec3 from_eye_m{0};
+};
+
+std::vector<Near> nearest_first(std::span<const UnderWay> chains, const view::Camera& camera) {
+    std::vector<Near> all;
+    for (const UnderWay& chain : chains) {
+        for (const Fading& fading : chain.frame->fading) {
+            all.push_back({&chain, fading, chain.now[fading.instance].at(chain.facts->middle_m) - camera.position_m});
+        }
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Near& a, const Near& b) {
+        return glm::dot(a.from_eye_m, a.from_eye_m) < glm::dot(b.from_eye_m, b.from_eye_m);
+    });
+    return all;
+}
+
+PackedMoved packed(uint32_t id, const Fading& fading, const Reprojection& moved, const Extent& extent) {
     PackedMoved made;
     made.old_from_new = moved.old_from_new, made.new_from_old = moved.new_from_old;
-    made.id = fading.instance + 1, made.from = fading.transition.from, made.to = fading.transition.to;
+    made.id = id, made.from = fading.transition.from, made.to = fading.transition.to;
     made.phase = float(fading.transition.phase);
     made.near_z = extent.near_z, made.far_z = extent.far_z;
     return made;
@@ -42,25 +62,19 @@ PackedMoved packed(const Fading& fading, const Reprojection& moved, const Extent
 
 }  // namespace
 
-Combination combination_of(const FrameOptions& options, const FrameList& frame, const ChainFacts& facts,
-                           std::span<const Placement> before, std::span<const Placement> now, const view::Camera& old_camera,
+Combination combination_of(const FrameOptions& options, std::span<const UnderWay> chains, const view::Camera& old_camera,
                            const view::Camera& new_camera) {
     Combination made;
     const Placement still;
     if (options.reprojects) made.camera = reprojection(old_camera, still, new_camera, still);
     if (options.variant == Variant::fsi_paper) return made;
-    auto from_eye_m = [&](const Fading& fading) { return now[fading.instance].at(facts.middle_m) - new_camera.position_m; };
-    std::vector<Fading> nearest_first = frame.fading;
-    std::stable_sort(nearest_first.begin(), nearest_first.end(), [&](const Fading& a, const Fading& b) {
-        return glm::dot(from_eye_m(a), from_eye_m(a)) < glm::dot(from_eye_m(b), from_eye_m(b));
-    });
     std::vector<Extent> extents;
-    for (const Fading& fading : nearest_first) {
-        uint32_t i = fading.instance;
-        extents.push_back(extent_of(new_camera, from_eye_m(fading), facts.radius_m * now[i].scale, kTileMargin_px));
-        bool has_own = options.reprojects && options.remedies.moves_instances && before[i] != now[i];
-        Reprojection moved = has_own ? reprojection(old_camera, before[i], new_camera, now[i]) : made.camera;
-        made.moved.push_back(packed(fading, moved, extents.back()));
+    for (const auto& [chain, fading, from_eye_m] : nearest_first(chains, new_camera)) {
+        const Placement &before = chain->before[fading.instance], &now = chain->now[fading.instance];
+        extents.push_back(extent_of(new_camera, from_eye_m, chain->facts->radius_m * now.scale, kTileMargin_px));
+        bool has_own = options.reprojects && options.remedies.moves_instances && before != now;
+        Reprojection moved = has_own ? reprojection(old_camera, before, new_camera, now) : made.camera;
+        made.moved.push_back(packed(chain->first_instance + fading.instance + 1, fading, moved, extents.back()));
     }
     made.tiles = tiles_of(new_camera, extents);
     return made;
@@ -68,7 +82,6 @@ Combination combination_of(const FrameOptions& options, const FrameList& frame, 
 
 Result<Turns> Turns::make(const Drawing& drawing, const FrameOptions& options) {
     Turns made;
-    made.drawing_ = &drawing;
     made.options_ = options;
     made.nothing_ = gl::make_vertex_array();
     bool is_paper = options.variant == Variant::fsi_paper;
@@ -135,15 +148,16 @@ Result<Turns::Pair*> Turns::pair_for(const gl::Target& target) {
     return &pairs_.emplace(target.samples(), std::move(pair)).first->second;
 }
 
-uint64_t Turns::bytes() const {
+uint64_t Turns::bytes(uint32_t samples) const {
     bool is_small = options_.variant == Variant::fsi_paper && options_.is_half_precise;
-    uint64_t sample_bytes = 4 + (is_small ? 4 : 8) + 4, bytes = 0;
-    for (const auto& [samples, pair] : pairs_) bytes += 2 * sample_bytes * samples * pair.width_px * pair.height_px;
-    return bytes;
+    uint64_t sample_bytes = 4 + (is_small ? 4 : 8) + 4;
+    auto found = pairs_.find(samples);
+    if (found == pairs_.end()) return 0;
+    return 2 * sample_bytes * samples * found->second.width_px * found->second.height_px;
 }
 
-uint64_t Turns::fill(const Pair& pair, Buffer& buffer, const DrawOptions& look, uint64_t frame, const DrawList& list,
-                     uint64_t& uploaded_bytes) {
+uint64_t Turns::fill(const Pair& pair, Buffer& buffer, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
+                     const DrawList* TurnPart::*list, uint64_t& uploaded_bytes) {
     gl::bind_for_drawing(buffer.framebuffer.id(), pair.width_px, pair.height_px);
     const GLfloat farthest = 0;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
@@ -154,19 +168,25 @@ uint64_t Turns::fill(const Pair& pair, Buffer& buffer, const DrawOptions& look, 
         const GLuint nothing[4] = {0, 0, 0, 0};
         glClearBufferuiv(GL_COLOR, 1, nothing);
     }
-    uploaded_bytes += lists_.fill(list);
+    while (lists_.size() < parts.size()) lists_.emplace_back();
+    uint64_t call_count = 1;
     if (look.is_wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    drawing_->draw_calls(turn_, lists_, list, list.whole_calls, {});
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const DrawList& from = *(parts[i].*list);
+        uploaded_bytes += lists_[i].fill(from);
+        parts[i].drawing->draw_calls(turn_, lists_[i], from, from.whole_calls, {});
+        call_count += from.whole_calls.size();
+    }
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    drawing_->draw_background(list.camera, {});
+    parts.front().drawing->draw_background((parts.front().*list)->camera, {});
     glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     buffer.frame = frame;
-    return list.whole_calls.size() + 1;
+    return call_count;
 }
 
-Result<uint64_t> Turns::draw(const gl::Target& target, const DrawOptions& look, uint64_t frame, const DrawList& now,
-                             const DrawList* before, const Combination& combination, uint64_t& uploaded_bytes) {
+Result<uint64_t> Turns::draw(const gl::Target& target, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
+                             bool has_before, const Combination& combination, uint64_t& uploaded_bytes) {
     Result<Pair*> found = pair_for(target);
     if (!found) return tl::unexpected(found.error());
     Pair& pair = **found;
@@ -174,9 +194,11 @@ Result<uint64_t> Turns::draw(const gl::Target& target, const DrawOptions& look, 
     Buffer& older = pair.buffers[(frame + 1) % 2];
     uint64_t calls = 0;
     // A target that was not drawn into the last time.
-    bool has_older = before != nullptr && before->camera.width_px == pair.width_px && before->camera.height_px == pair.height_px;
-    if (has_older && older.frame + 1 != frame) calls += fill(pair, older, look, frame - 1, *before, uploaded_bytes);
-    if (newer.frame != frame) calls += fill(pair, newer, look, frame, now, uploaded_bytes);
+    const view::Camera& old_camera = parts.front().before->camera;
+    bool has_older = has_before && old_camera.width_px == pair.width_px && old_camera.height_px == pair.height_px;
+    if (has_older && older.frame + 1 != frame)
+        calls += fill(pair, older, look, frame - 1, parts, &TurnPart::before, uploaded_bytes);
+    if (newer.frame != frame) calls += fill(pair, newer, look, frame, parts, &TurnPart::now, uploaded_bytes);
     combine(target, pair, newer, has_older ? older : newer, combination);
     target.resolve();
     return calls + 1;

@@ -30,22 +30,36 @@ struct Combination {
     std::vector<PackedMoved> moved;  // nearest first
     Tiles tiles;
 };
-// before: where the instances stood in the frame before, whose camera old_camera is.
-Combination combination_of(const FrameOptions& options, const FrameList& frame, const ChainFacts& facts,
-                           std::span<const Placement> before, std::span<const Placement> now, const view::Camera& old_camera,
+// What of one chain is under way.
+struct UnderWay {
+    const FrameList* frame = nullptr;
+    const ChainFacts* facts = nullptr;
+    std::span<const Placement> before, now;  // where the instances stood in the frame before, and stand
+    uint32_t first_instance = 0;             // instances of chains before this one
+};
+// Of all chains of a picture. old_camera: of the frame before.
+Combination combination_of(const FrameOptions& options, std::span<const UnderWay> chains, const view::Camera& old_camera,
                            const view::Camera& new_camera);
+
+// A chain's part of two frames that are put together.
+struct TurnPart {
+    const Drawing* drawing = nullptr;
+    const DrawList *now = nullptr, *before = nullptr;
+};
 
 // Draws by turns. A context must be current.
 class Turns {
   public:
+    // Its programs are those of any drawing: one of those that are drawn, or another.
     static Result<Turns> make(const Drawing& drawing, const FrameOptions& options);
 
     // look: without a part. Draws frame number `frame`, and the one before it where its buffer is not there any more, and puts
-    // both together into the target. Again for the same number: only puts them together. before: null of a first frame. Returns
-    // calls made; uploaded grows by what went to the card. Fails with Exit::impossible if the renderer has no such buffers.
-    Result<uint64_t> draw(const gl::Target& target, const DrawOptions& look, uint64_t frame, const DrawList& now,
-                          const DrawList* before, const Combination& combination, uint64_t& uploaded_bytes);
-    uint64_t bytes() const;  // of the buffers
+    // both together into the target. Again for the same number: only puts them together. parts: at least one, of one camera each
+    // frame; has_before: false of a first frame, whose parts have nothing before. Returns calls made; uploaded grows by what went
+    // to the card. Fails with Exit::impossible if the renderer has no such buffers.
+    Result<uint64_t> draw(const gl::Target& target, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
+                          bool has_before, const Combination& combination, uint64_t& uploaded_bytes);
+    uint64_t bytes(uint32_t samples) const;  // of the buffers for targets of so many samples a pixel
 
   private:
     struct Buffer {
@@ -61,16 +75,15 @@ class Turns {
     Result<Pair*> pair_for(const gl::Target& target);
     Result<Buffer> make_buffer(const gl::Target& target) const;
     Result<gl::Program> combine_program(uint32_t samples) const;
-    uint64_t fill(const Pair& pair, Buffer& buffer, const DrawOptions& look, uint64_t frame, const DrawList& list,
-                  uint64_t& uploaded_bytes);
+    uint64_t fill(const Pair& pair, Buffer& buffer, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
+                  const DrawList* TurnPart::*list, uint64_t& uploaded_bytes);
     void combine(const gl::Target& target, const Pair& pair, const Buffer& newer, const Buffer& older,
                  const Combination& combination);
 
-    const Drawing* drawing_ = nullptr;
     FrameOptions options_;
     gl::Program turn_;
     std::map<uint32_t, Pair> pairs_;  // by samples
-    ListBuffers lists_;
+    std::vector<ListBuffers> lists_;  // by part
     gl::StreamBuffer moved_, tiles_;
     gl::VertexArray nothing_;
 };

@@ -60,6 +60,7 @@ void Director::take_over(uint32_t slot) {
     bool turns_back = fade_left_ > 0 && has_before() && *before_ == slot;
     fade_left_ = turns_back ? settings_.fade_frames - fade_left_ : has_drawn_ ? settings_.fade_frames : 0;
     before_ = current_;
+    if (waiting_ == slot) waiting_.reset();
     use(slot);
     is_cut_ = false;
 }
@@ -98,10 +99,7 @@ bool Director::begin_frame(const view::Camera& camera) {
     slice_triangles_ = 0;
     took_over_ = Cause::none;
     judge_keys();
-    if (waiting_ && !is_fading()) {
-        if (waiting_ != current_) take_over(*waiting_);
-        waiting_.reset();
-    }
+    if (waiting_ && !is_fading()) take_over(*waiting_);
     if (spending_.is_limited()) cut_coarse();
     is_cut_ = spending_.is_limited();
     return has_jumped;

@@ -32,7 +32,9 @@ struct Settings {
     double guard = 1.15;
     uint32_t scale = 2;         // texels of a key a pixel, in both directions
     double texel_share = 0.25;  // keys keep no finer promise than so much of a texel, which could not show it; 0 = error_px
-    uint32_t slots = 4;         // keys kept, the one being made among them; at least 2
+    // Keys kept, the one being made among them; at least 2. Of 2 a new one takes the place of the one that is left, which is then
+    // gone at once if it was still fading out; from 3 on none that serves is broken off.
+    uint32_t slots = 4;
     uint32_t most_slices = 48;
     uint32_t fade_frames = 8;  // over which a new key takes over from the old; 0 = at once
     double morph = 0;          // of the coarse cut (view::PixelDetail)
@@ -141,7 +143,8 @@ class Director {
     uint32_t frames_left() const;
     Cause cause_now() const;
     void begin_key(const view::Camera& pose, Cause cause);
-    bool has_room() const { return slots_.size() > 2 || !waiting_; }  // for one more key beside those in use
+    // For one more key beside those in use, the one that is left among them.
+    bool has_room() const { return slots_.size() > (waiting_ ? 3u : 1u); }
     uint32_t slot_to_empty() const;
     uint64_t slice_triangles();
     bool shows_key() const;

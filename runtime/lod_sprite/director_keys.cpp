@@ -43,7 +43,7 @@ Cause Director::cause_now() const {
 
 // The place of the key that would serve the camera least, none of those in use, and one that waits for its time last of all.
 uint32_t Director::slot_to_empty() const {
-    bool keeps_before = slots_.size() > (waiting_ ? 3 : 2);
+    bool keeps_before = slots_.size() > 2;
     uint32_t worst = 0;
     double worst_error = -1;
     for (uint32_t slot = 0; slot < slots_.size(); ++slot) {

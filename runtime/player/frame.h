@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/caveclod/draw_frames.h"
+#include "runtime/discrete/draw_frames.h"
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/player/method.h"
 #include "runtime/stream/stream.h"
@@ -34,7 +35,8 @@ struct FrameRecord {
     double predicted_error_px = 0;
     // Of a frame by LOD-sprite, whose predicted error is the p99 over the pixels.
     std::optional<lod_sprite::FrameCounts> sprite;
-    std::optional<caveclod::FrameCounts> mesh;  // of a mesh that is refined
+    std::optional<caveclod::FrameCounts> mesh;   // of a mesh that is refined
+    std::optional<discrete::FrameCounts> chain;  // of instances of a chain
     std::optional<StreamRecord> stream;
 };
 

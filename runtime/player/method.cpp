@@ -11,9 +11,10 @@
 namespace overlook::player {
 namespace {
 
-constexpr std::array<std::string_view, 7> kNames = {
-    "terrain", "lod-sprite", "lod-sprite:paper", "caveclod", "caveclod:paper", "caveclod:shared", "discrete"};
-static_assert(size_t(Method::discrete) + 1 == kNames.size());
+constexpr std::array<std::string_view, 13> kNames = {
+    "terrain",      "lod-sprite",         "lod-sprite:paper", "caveclod",       "caveclod:paper",  "caveclod:shared", "discrete",
+    "discrete:fsi", "discrete:fsi-paper", "discrete:switch",  "discrete:blend", "discrete:dither", "discrete:late"};
+static_assert(size_t(Method::discrete_late) + 1 == kNames.size());
 constexpr std::array<SettingKind, 1> kErrorAlone = {SettingKind{"error-px", 0.001, 10000, 1}};
 
 std::span<const SettingKind> settings_of(Method method) {
@@ -27,8 +28,9 @@ std::span<const SettingKind> settings_of(Method method) {
         case Method::caveclod_shared:
             return caveclod::setting_kinds(variant_of(method));
         case Method::terrain:
-        case Method::discrete:
             break;
+        default:
+            return discrete::setting_kinds(discrete_variant_of(method));
     }
     return kErrorAlone;
 }
@@ -67,9 +69,9 @@ Result<Method> method_of(const std::string& path, const scene::Layer& layer) {
     auto found = std::find(kNames.begin(), kNames.end(), whole);
     if (found != kNames.end()) return Method(found - kNames.begin());
     if (std::find(kNames.begin(), kNames.end(), layer.method) == kNames.end()) {
-        return impossible("{}: /layers/0/method: the player cannot draw {} yet; it draws terrain, lod-sprite, caveclod and discrete",
-                          path,
-                          layer.method);
+        return impossible(
+            "{}: /layers/0/method: the player cannot draw {} yet; it draws terrain, lod-sprite, caveclod and discrete", path,
+            layer.method);
     }
     return bad_input("{}: /layers/0/method: {} has no variant {}", path, layer.method, layer.variant);
 }
@@ -107,14 +109,24 @@ std::string_view name_of(Method method) {
 }
 
 std::string_view name_of(Thing thing) {
+    if (thing == Thing::chain) return "chain of levels";
     return thing == Thing::mesh ? "mesh" : "terrain";
 }
 
+std::string_view things_of(Method method) {
+    if (method == Method::discrete) return "meshes and chains of levels";
+    if (method > Method::discrete) return "chains of levels";
+    return method >= Method::caveclod ? "meshes" : "terrains";
+}
+
 bool draws(Method method, Thing thing) {
+    if (thing == Thing::chain) return method >= Method::discrete;
+    if (method > Method::discrete) return false;
     return method == Method::lod_sprite || (method >= Method::caveclod) == (thing == Thing::mesh);
 }
 
 Method default_method(Thing thing) {
+    if (thing == Thing::chain) return Method::discrete;
     return thing == Thing::mesh ? Method::caveclod : Method::terrain;
 }
 
@@ -131,10 +143,27 @@ caveclod::Variant variant_of(Method method) {
     return method == Method::caveclod_shared ? caveclod::Variant::shared : caveclod::Variant::own;
 }
 
+discrete::Variant discrete_variant_of(Method method) {
+    switch (method) {
+        case Method::discrete_fsi_paper:
+            return discrete::Variant::fsi_paper;
+        case Method::discrete_switch:
+            return discrete::Variant::hard;
+        case Method::discrete_blend:
+            return discrete::Variant::blend;
+        case Method::discrete_dither:
+            return discrete::Variant::dither;
+        case Method::discrete_late:
+            return discrete::Variant::late;
+        default:
+            return discrete::Variant::fsi;
+    }
+}
+
 Method next(Method method, Thing thing) {
     auto after = [](Method one) { return Method((size_t(one) + 1) % kNames.size()); };
     Method found = after(method);
-    while (!draws(found, thing)) found = after(found);
+    while (!draws(found, thing) || found == Method::discrete_fsi) found = after(found);
     return found;
 }
 
@@ -165,10 +194,14 @@ Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& descr
     read.sprite = with_error(read.sprite, described.error_px);
     read.paper = with_error(read.paper, described.error_px);
     read.mesh = with_error(read.mesh, described.error_px);
+    read.chain = with_error(discrete::defaults_of(discrete_variant_of(read.method)), described.error_px);
+    read.instances = layer.instances;
     for (const auto& [kind, value] : values) {
         if (read.method == Method::lod_sprite) lod_sprite::set(read.sprite, kind.name, value);
         if (read.method == Method::lod_sprite_paper) lod_sprite::paper::set(read.paper, kind.name, value);
-        if (read.method >= Method::caveclod && read.method != Method::discrete) caveclod::set(read.mesh, kind.name, value);
+        if (read.method >= Method::caveclod && read.method < Method::discrete) caveclod::set(read.mesh, kind.name, value);
+        if (read.method >= Method::discrete) discrete::set(read.chain, kind.name, value);
+        read.sets_chain = read.sets_chain || (read.method == Method::discrete && kind.name != "error-px");
     }
     if (Result<void> checked = check_promises(path, read); !checked) return tl::unexpected(checked.error());
     return read;
@@ -187,6 +220,11 @@ lod_sprite::paper::FrameOptions with_error(lod_sprite::paper::FrameOptions optio
     options.error_px = error_px;
     options.low_error_px *= ratio;
     options.decide.key_error_px *= ratio;
+    return options;
+}
+
+discrete::FrameOptions with_error(discrete::FrameOptions options, double error_px) {
+    options.select.error_px = discrete::defaults_of(options.variant).select.error_px * error_px;
     return options;
 }
 

@@ -3,27 +3,46 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "formats/scene.h"
 #include "runtime/caveclod/settings.h"
+#include "runtime/discrete/settings.h"
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/lod_sprite/draw_paper_frames.h"
 
 namespace overlook::player {
 
-enum class Thing { terrain, mesh };
+enum class Thing { terrain, mesh, chain };
 
-// Of terrains; lod-sprite draws both; of meshes from caveclod on.
-enum class Method { terrain, lod_sprite, lod_sprite_paper, caveclod, caveclod_paper, caveclod_shared, discrete };
+// Of terrains; lod-sprite draws meshes too; of meshes from caveclod on; of chains of levels from discrete on, which of a mesh
+// draws levels for the whole of it and of a chain the same as discrete:fsi.
+enum class Method {
+    terrain,
+    lod_sprite,
+    lod_sprite_paper,
+    caveclod,
+    caveclod_paper,
+    caveclod_shared,
+    discrete,
+    discrete_fsi,
+    discrete_fsi_paper,
+    discrete_switch,
+    discrete_blend,
+    discrete_dither,
+    discrete_late
+};
 
 // As typed: "terrain", "lod-sprite", "lod-sprite:paper", "caveclod" ...
 std::string_view name_of(Method method);
 bool draws(Method method, Thing thing);
-std::string_view name_of(Thing thing);  // "terrain", "mesh"
+std::string_view name_of(Thing thing);      // "terrain", "mesh", "chain of levels"
+std::string_view things_of(Method method);  // what it draws: "terrains", "meshes", "chains of levels"
 Method default_method(Thing thing);
 bool takes_budgets(Method method);  // of triangles or milliseconds, by the error asked for
 bool has_wireframe(Method method);
-caveclod::Variant variant_of(Method method);  // of one of caveclod's
+caveclod::Variant variant_of(Method method);           // of one of caveclod's
+discrete::Variant discrete_variant_of(Method method);  // of one of discrete's
 // The one that M goes on to, of those that draw the thing; the last is followed by the first.
 Method next(Method method, Thing thing);
 
@@ -47,6 +66,9 @@ struct LayerMethod {
     lod_sprite::FrameOptions sprite;
     lod_sprite::paper::FrameOptions paper;
     caveclod::FrameOptions mesh;
+    discrete::FrameOptions chain;               // of `method`'s variant
+    std::vector<scene::Transform> instances{};  // of a chain
+    bool sets_chain = false;                    // something that only chains have
 };
 Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described);
 
@@ -54,5 +76,7 @@ Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& descr
 lod_sprite::FrameOptions with_error(lod_sprite::FrameOptions options, double error_px);
 lod_sprite::paper::FrameOptions with_error(lod_sprite::paper::FrameOptions options, double error_px);
 caveclod::FrameOptions with_error(caveclod::FrameOptions options, double error_px);
+// Of discrete:late, whose own error is a share of a pixel, that share of it.
+discrete::FrameOptions with_error(discrete::FrameOptions options, double error_px);
 
 }  // namespace overlook::player

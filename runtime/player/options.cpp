@@ -100,8 +100,8 @@ Result<void> check_kind(const Options& options, Method method, Thing thing) {
     Method first = default_method(thing);
     std::string fitting(name_of(first));
     for (Method one = next(first, thing); one != first; one = next(one, thing)) fitting += fmt::format(", {}", name_of(one));
-    return bad_command("--method {}: it draws {}, and {} holds a {}; that takes {}", name_of(method),
-                       thing == Thing::mesh ? "terrains" : "meshes", options.file, name_of(thing), fitting);
+    return bad_command("--method {}: it draws {}, and {} holds a {}; that takes {}", name_of(method), things_of(method),
+                       options.file, name_of(thing), fitting);
 }
 
 void choose_samples(Plan& plan, bool is_software, bool is_window) {
@@ -112,7 +112,7 @@ void choose_samples(Plan& plan, bool is_software, bool is_window) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("file", options.file, "A baked terrain or mesh, or a scene of one")
+    app.add_option("file", options.file, "A baked terrain, mesh or chain of levels, or a scene of one")
         ->required()
         ->type_name("FILE.ovl|SCENE.json");
     app.add_flag("--headless", options.headless, "Draw without a window");
@@ -129,11 +129,13 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--frames", options.frames, "Frames to draw; then end. Of a flight at most these")->type_name("N");
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
-    app.add_option("--method", options.method,
-                   "What to draw with: a terrain by terrain, lod-sprite or lod-sprite:paper, a mesh by caveclod, caveclod:paper, "
-                   "caveclod:shared, discrete or lod-sprite; default what the scene says, or the first. In the window M changes "
-                   "it, K shows "
-                   "what lod-sprite takes from where")
+    app.add_option(
+           "--method", options.method,
+           "What to draw with: a terrain by terrain, lod-sprite or lod-sprite:paper, a mesh by caveclod, caveclod:paper, "
+           "caveclod:shared, discrete or lod-sprite, a chain of levels by discrete, discrete:fsi-paper, discrete:switch, "
+           "discrete:blend, discrete:dither or discrete:late; default what the scene says, or the first. In the window M changes "
+           "it, K shows "
+           "what lod-sprite takes from where")
         ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,
                                             "Triangles a frame at most: the error rises above --error-px where it must")
@@ -205,7 +207,9 @@ Result<Plan> plan_from(const Options& options) {
     if (!options.method.empty()) {
         Result<Method> method = parse_method(options.method);
         if (!method) return tl::unexpected(method.error());
-        Thing thing = draws(*method, Thing::terrain) ? Thing::terrain : Thing::mesh;  // till the file is read
+        Thing thing = draws(*method, Thing::terrain) ? Thing::terrain
+                      : draws(*method, Thing::mesh)  ? Thing::mesh
+                                                     : Thing::chain;  // till the file is read
         if (Result<void> fit = check_fit(options, *method, thing); !fit) return tl::unexpected(fit.error());
         plan.method = *method;
     }

@@ -18,6 +18,11 @@ std::string megabytes(uint64_t bytes) {
 // Which method draws; of LOD-sprite what its keys do.
 void method_lines(const OverlayText& text) {
     text_line(fmt::format("method {}", name_of(text.method)));
+    if (text.frame->chain) {
+        const discrete::FrameCounts& chain = *text.frame->chain;
+        text_line(fmt::format("{} instances in view, {} on their way between levels; {} calls", chain.in_view_count,
+                              chain.fading_count, chain.draw_call_count));
+    }
     if (text.frame->mesh) {
         const caveclod::FrameCounts& mesh = *text.frame->mesh;
         text_line(fmt::format("splits {}, {} forced; collapses {}{}", mesh.split_count, mesh.forced_count, mesh.collapse_count,

@@ -65,6 +65,12 @@ Json frame_json(const FrameRecord& frame) {
         json["camera_bytes"] = frame.mesh->camera_bytes;
         json["settled"] = frame.mesh->is_settled;
     }
+    if (frame.chain) {
+        json["instances_in_view"] = frame.chain->in_view_count;
+        json["changes_begun"] = frame.chain->begun_count;
+        json["under_way"] = frame.chain->fading_count;
+        json["draw_calls"] = frame.chain->draw_call_count;
+    }
     if (frame.stream) put_stream(frame, json);
     if (!frame.sprite) return json;
     const lod_sprite::FrameCounts& sprite = *frame.sprite;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formats/caveclod.h"
+#include "formats/discrete.h"
 #include "formats/terrain.h"
 #include "runtime/player/record.h"
 #include "runtime/view/flight.h"
@@ -24,15 +25,24 @@ Result<std::unique_ptr<Subject>> read_subject(const std::string& asset, const st
                                               bool is_method_said, const std::optional<Streaming>& streaming) {
     Result<container::Reader> file = container::Reader::open(asset);
     if (!file) return tl::unexpected(file.error());
-    Thing thing = file->kind() == caveclod::kKind ? Thing::mesh : Thing::terrain;
-    if (thing != Thing::mesh && file->kind() != terrain::kKind) {
-        return bad_input("{}: a file of kind {} cannot be drawn; a baked terrain or mesh is wanted", asset,
+    Thing thing = file->kind() == caveclod::kKind ? Thing::mesh : file->kind() == discrete::kKind ? Thing::chain : Thing::terrain;
+    if (thing == Thing::terrain && file->kind() != terrain::kKind) {
+        return bad_input("{}: a file of kind {} cannot be drawn; a baked terrain, mesh or chain of levels is wanted", asset,
                          container::tag_text(file->kind()));
     }
     if (!is_method_said) layer.method = default_method(thing);
     if (!draws(layer.method, thing)) {
         return bad_input("{}: /layers/0/method: {} draws {}, and {} is a {}", path, name_of(layer.method),
-                         thing == Thing::mesh ? "terrains" : "meshes", asset, name_of(thing));
+                         things_of(layer.method), asset, name_of(thing));
+    }
+    if (thing != Thing::chain && !layer.instances.empty())
+        return bad_input("{}: /layers/0/instances: {} is a {}; chains of levels have instances", path, asset, name_of(thing));
+    if (thing != Thing::chain && layer.sets_chain)
+        return bad_input("{}: /layers/0/settings: {} is a {}, of which discrete takes error_px alone", path, asset,
+                         name_of(thing));
+    if (thing == Thing::chain) {
+        if (streaming) return impossible("{}: a chain of levels is read whole; --stream-memory is of terrains and meshes", asset);
+        return read_chain(*file, layer);
     }
     if (streaming && thing == Thing::mesh) return read_streamed_mesh(std::move(*file), layer, *streaming);
     if (streaming) return read_streamed_terrain(std::move(*file), *streaming);

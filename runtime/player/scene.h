@@ -30,13 +30,15 @@ double cost_of(const Options& options, const FrameRecord& frame);
 
 class Scene {
   public:
-    // Reads a baked terrain or mesh, or (a name that ends in .json) a scene with one. streaming: it is read in parts; a terrain
-    // is then drawn by its triangles, a mesh by caveclod. Needs no OpenGL. Fails as scene::read_scene, layer_method_of,
-    // read_terrain, read_mesh and the two that stream, with Exit::impossible:
+    // Reads a baked terrain, mesh or chain of levels, or (a name that ends in .json) a scene with one. streaming: it is read in
+    // parts; a terrain is then drawn by its triangles, a mesh by caveclod. Needs no OpenGL. Fails as scene::read_scene,
+    // layer_method_of, read_terrain, read_mesh and the two that stream, with Exit::impossible:
     //   "a.json: /layers/1: the player draws one thing at a time; leave one layer"
     // and with Exit::bad_input:
     //   "a.json: /layers/0/method: caveclod draws meshes, and valley.ovl is a terrain"
-    //   "a.ovl: a file of kind WLDI cannot be drawn; a baked terrain or mesh is wanted"
+    //   "a.json: /layers/0/settings: duck.ovl is a mesh, of which discrete takes error_px alone"
+    //   "a.json: /layers/0/instances: duck.ovl is a mesh; chains of levels have instances"
+    //   "a.ovl: a file of kind WLDI cannot be drawn; a baked terrain, mesh or chain of levels is wanted"
     static Result<Scene> read(const std::string& path, const std::optional<Streaming>& streaming = std::nullopt);
     // Puts it on the graphics card. Needs a current context; must be called once before draw(). second: how a context beside it
     // is made, for keys that are drawn by a thread.
@@ -47,7 +49,7 @@ class Scene {
     const scene::Scene& described() const { return described_; }
     const scene::Transform& transform() const { return described_.layers.front().transform; }
 
-    // The method that the file asks for; if it does not say, terrain or caveclod.
+    // The method that the file asks for; if it does not say, terrain, caveclod or discrete.
     Method method() const { return layer_.method; }
 
     // camera: in the scene's frame. Fails as Subject::draw.

@@ -1,4 +1,4 @@
-// What is flown over: a terrain, or a mesh.
+// What is flown over: a terrain, a mesh, or instances of a chain of levels.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,11 @@ class Subject : public Ground {
     virtual Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) = 0;
 };
 
-// layer: its settings. Fail as terrain::read and caveclod::read, and with Exit::impossible as caveclod::Mesh::make.
+// layer: its settings. Fail as terrain::read, caveclod::read and discrete::read, and with Exit::impossible as
+// caveclod::Mesh::make.
 Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer);
 Result<std::unique_ptr<Subject>> read_mesh(const container::Reader& file, const LayerMethod& layer);
+Result<std::unique_ptr<Subject>> read_chain(const container::Reader& file, const LayerMethod& layer);
 
 // How something is read in parts.
 struct Streaming {

@@ -1,8 +1,12 @@
 // What the tests of refinement share: a mesh of hills, cameras over it, and settings.
 #pragma once
 
-#include <cmath>
+#include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
+#include "runtime/caveclod/mesh.h"
 #include "runtime/caveclod/settings.h"
 #include "runtime/view/camera.h"
 #include "tests/caveclod/synthetic_hierarchy.h"
@@ -32,6 +36,12 @@ inline view::Camera flown(double t) {
     double away_m = 50 + 30 * std::sin(1.3 * t);
     return camera_at(32 + away_m * std::sin(t), 32 - away_m * std::cos(t), 12 + 6 * std::sin(2.7 * t), -t * 180 / 3.14159265,
                      -25);
+}
+
+inline Mesh mesh_of(const Hierarchy& hierarchy) {
+    Result<Mesh> mesh = Mesh::make(hierarchy);
+    EXPECT_TRUE(mesh);
+    return std::move(*mesh);
 }
 
 inline Settings plain() {

@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "formats/parallel.h"
 #include "runtime/caveclod/refine.h"
 #include "runtime/caveclod/screen_test.h"
 #include "tests/caveclod/drawn_faces.h"
@@ -18,7 +17,6 @@ namespace overlook::caveclod {
 namespace {
 
 using synthetic::applied;
-using synthetic::buffers;
 using synthetic::drawn;
 using synthetic::expected;
 using synthetic::is_closed;
@@ -28,13 +26,8 @@ using flights::camera_at;
 using flights::flown;
 using flights::hills;
 using flights::kFrame_s;
+using flights::mesh_of;
 using flights::plain;
-
-Mesh mesh_of(const Hierarchy& hierarchy) {
-    Result<Mesh> mesh = Mesh::make(hierarchy);
-    EXPECT_TRUE(mesh);
-    return std::move(*mesh);
-}
 
 TEST(Refinement, DrawsAtEveryFrameTheFacesOfALegalCut) {
     Mesh mesh = mesh_of(hills());
@@ -99,60 +92,6 @@ TEST(Refinement, KeepsTheErrorAskedOfEverythingInView) {
             }
         }
     }
-}
-
-// The short way never says that something stays which the long way would change.
-TEST(ScreenTest, AnswersTheShortWayAsTheLongOne) {
-    const Hierarchy& h = hills();
-    Mesh mesh = mesh_of(h);
-    size_t within = 0, seen_within = 0, kept = 0, all = 0;
-    for (int pose = 0; pose < 60; ++pose) {
-        ScreenTest test(mesh, flown(0.1 * pose), plain());
-        for (double limit_px : {0.1, 1.0, 4.0}) {
-            double reach = test.reach_of(limit_px);
-            for (uint32_t i = 0; i < h.split_count(); ++i) {
-                ++all;
-                if (test.is_within(test.sphere(i), reach)) {
-                    ++within;
-                    ASSERT_LE(test(i).error_px, limit_px);
-                }
-                if (test.is_seen_within(test.sphere(i), limit_px)) {
-                    ++seen_within;
-                    ASSERT_LE(test(i).seen_error_px, limit_px);
-                }
-                if (test.is_kept(test.sphere(i))) {
-                    ++kept;
-                    ASSERT_FALSE(test(i).wants_collapse);
-                }
-            }
-        }
-    }
-    EXPECT_GT(within, all / 200);
-    EXPECT_GT(seen_within, all / 10);
-    EXPECT_GT(kept, all / 50);
-}
-
-TEST(ScreenTest, AnswersTheShortWayWhereNoBandLiesBetween) {
-    Mesh mesh = mesh_of(hills());
-    Settings settings = plain();
-    settings.collapse_share = 1, settings.error_px = 1, settings.guard_deg = 0;
-    size_t sure = 0, split = 0;
-    for (int pose = 0; pose < 60; ++pose) {
-        for (double silhouette_px : {0.0, 0.3}) {
-            settings.silhouette_error_px = silhouette_px;
-            ScreenTest test(mesh, flown(0.1 * pose), settings);
-            for (uint32_t i = 0; i < mesh.split_count(); ++i) {
-                split += test(i).must_split;
-                if (!test.is_surely_split(test.sphere(i))) continue;
-                ++sure;
-                ASSERT_TRUE(test(i).must_split);
-            }
-        }
-    }
-    EXPECT_GT(sure, split / 4);
-    settings.culls_back_faces = true;
-    ScreenTest culling(mesh, flown(0), settings);
-    for (uint32_t i = 0; i < mesh.split_count(); ++i) ASSERT_FALSE(culling.is_surely_split(culling.sphere(i)));
 }
 
 // What is applied is asked once, and what could be applied.
@@ -333,71 +272,6 @@ TEST(Refinement, RefinesOutlinesFurtherIfAsked) {
     double outline_growth = double(near_outline(0.5, true)) / double(near_outline(3, true));
     double front_growth = double(near_outline(0.5, false)) / double(near_outline(3, false));
     EXPECT_GT(outline_growth, 1.2 * front_growth);
-}
-
-TEST(Refinements, OfManyCamerasAreEachAsIfAloneWithAnyThreadCount) {
-    Mesh mesh = mesh_of(hills());
-    constexpr size_t kCameras = 4;
-    Settings settings = plain();
-    settings.glide_s = 0.25, settings.most_operations = 300;
-    std::vector<std::vector<uint32_t>> alone;
-    for (size_t c = 0; c < kCameras; ++c) {
-        Refinement refinement(mesh);
-        for (int frame = 0; frame < 20; ++frame) refinement.refine(flown(0.05 * frame + 1.5 * double(c)), settings, kFrame_s);
-        alone.push_back(buffers(refinement));
-    }
-    for (unsigned threads : {1u, 2u, 4u}) {
-        set_thread_count(threads);
-        std::vector<Refinement> refinements;
-        for (size_t c = 0; c < kCameras; ++c) refinements.emplace_back(mesh);
-        std::vector<Refinement*> pointers;
-        for (Refinement& refinement : refinements) pointers.push_back(&refinement);
-        std::vector<FrameReport> reports(kCameras);
-        for (int frame = 0; frame < 20; ++frame) {
-            std::vector<view::Camera> cameras;
-            for (size_t c = 0; c < kCameras; ++c) cameras.push_back(flown(0.05 * frame + 1.5 * double(c)));
-            refine_all(pointers, cameras, settings, kFrame_s, reports);
-        }
-        for (size_t c = 0; c < kCameras; ++c) EXPECT_EQ(buffers(refinements[c]), alone[c]) << threads << " threads, camera " << c;
-    }
-    set_thread_count(0);
-}
-
-// One camera has almost all of the work, in several parts, so that others' threads come to its help.
-TEST(Refinements, OfUnequalCamerasAreEachAsIfAloneWithAnyThreadCount) {
-    static const Hierarchy kWide = synthetic::bake(synthetic::hills(120, 120, 3));
-    Mesh mesh = mesh_of(kWide);
-    Settings settings = plain();
-    settings.glide_s = 0.25, settings.error_px = 0.5;
-    constexpr size_t kCameras = 3;
-    auto cameras_of = [](int frame) {
-        view::Camera away = camera_at(60, -4000, 10, 180, 0), far = camera_at(60, -900, 60, 0, 0);
-        return std::array{away, camera_at(60, 10 + 0.4 * frame, 14, 0.2 * frame, -15), far};
-    };
-    auto fly = [&](unsigned threads, std::vector<std::vector<uint32_t>>& all, std::vector<uint32_t>& evaluated) {
-        set_thread_count(threads);
-        std::vector<Refinement> refinements;
-        for (size_t c = 0; c < kCameras; ++c) refinements.emplace_back(mesh);
-        std::vector<Refinement*> pointers;
-        for (Refinement& refinement : refinements) pointers.push_back(&refinement);
-        std::array<FrameReport, kCameras> reports;
-        for (int frame = 0; frame < 30; ++frame) {
-            refine_all(pointers, cameras_of(frame), settings, kFrame_s, reports);
-            for (const FrameReport& report : reports) evaluated.push_back(report.evaluated_count);
-            for (const Refinement& refinement : refinements) all.push_back(buffers(refinement));
-        }
-    };
-    std::vector<std::vector<uint32_t>> alone, together;
-    std::vector<uint32_t> evaluated_alone, evaluated_together;
-    fly(1, alone, evaluated_alone);
-    EXPECT_GT(evaluated_alone[evaluated_alone.size() - 2], 1000u);
-    for (unsigned threads : {2u, 5u}) {
-        together.clear(), evaluated_together.clear();
-        fly(threads, together, evaluated_together);
-        EXPECT_EQ(together, alone) << threads;
-        EXPECT_EQ(evaluated_together, evaluated_alone) << threads;
-    }
-    set_thread_count(0);
 }
 
 TEST(RefinementMemory, IsWithinWhatIsPromised) {

@@ -137,6 +137,34 @@ TEST(DiscreteDrawing, GoesFromOneLevelToTheOther) {
     EXPECT_EQ(errors.count(), 0u) << errors.first();
 }
 
+// Two chains of one instance each, or one chain of two: every variant draws the same.
+TEST(DiscreteDrawing, IsTheSameOfOneChainOrOfSeveral) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    gl::ErrorCounter errors;
+    Chain chain = made::simple_chain(), same = chain;
+    Drawing drawing = *Drawing::make(chain), other = *Drawing::make(same);
+    gl::Target target = *gl::Target::make(96, 80, 1);
+    std::vector<Placement> near = {placed({0, 0, 0})}, far = {placed({0.7, 1.5, 0.2})}, both = {near[0], far[0]};
+    std::vector<Stand> apart = {{&drawing, near}, {&other, far}};
+    for (Variant variant : kAll) {
+        SCOPED_TRACE(int(variant));
+        FrameOptions options = by_distance(variant);
+        options.remedies.splits_parities = false;  // which each chain does by itself
+        auto one = *FrameDrawer::make(drawing, both, options), several = *FrameDrawer::make(apart, options);
+        for (int frame = 0; frame < 20; ++frame) {
+            view::Camera camera = camera_from({0.02 * frame, -11.2 + 0.1 * frame, 0});
+            one->decide(camera, made::kStep_s, 0), several->decide(camera, made::kStep_s, 0);
+            FrameCounts wanted = *one->draw(target, {});
+            ImageRgb8 picture = target.read();
+            FrameCounts counts = *several->draw(target, {});
+            EXPECT_EQ(made::differing(picture, target.read()), 0u) << frame;
+            EXPECT_EQ(counts.triangle_count, wanted.triangle_count);
+            EXPECT_EQ(counts.fading_count, wanted.fading_count);
+        }
+    }
+    EXPECT_EQ(errors.count(), 0u) << errors.first();
+}
+
 // What is drawn again into another target is the same picture, though that target has no history.
 TEST(DiscreteDrawing, IsTheSameInEveryTarget) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);

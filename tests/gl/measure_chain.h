@@ -28,7 +28,7 @@ inline std::vector<scene::Transform> field_of(int side, double apart_m) {
 inline World world_of_chain(const std::string& name, discrete::Chain chain, const std::vector<scene::Transform>& instances) {
     World world;
     world.name = name, world.content_hash = "the same " + name;
-    world.chain.emplace(chain_world(std::move(chain), instances));
+    world.chains.push_back(chain_world(std::move(chain), instances));
     world.base.near_m = 0.01;
     EXPECT_TRUE(upload(world));
     return world;

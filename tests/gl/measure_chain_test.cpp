@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "formats/atomic_file.h"
+#include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
 #include "tests/gl/measure_chain.h"
 
@@ -89,10 +91,66 @@ TEST(MeasuredChain, MovesItsReferenceToo) {
     }
 }
 
+void write_chain(const std::string& path, discrete::Chain chain) {
+    chain.radius_m *= 1.001;  // over its corners as they are stored
+    container::Writer writer = *container::Writer::create(path, discrete::kKind);
+    Result<void> written = discrete::write(writer, chain);
+    ASSERT_TRUE(written) << written.error().message;
+    ASSERT_TRUE(writer.commit());
+}
+
+// Two layers, each moved as a whole: they stand in one picture where one layer's instances would.
+TEST(MeasuredChain, StandsBesideOthersInOneScene) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    ScratchFolder folder;
+    write_chain(folder / "cube.ovl", discrete::made::simple_chain());
+    auto world_of = [&](const std::string& layers) {
+        std::string text = R"({"version": 1, "layers": [)" + layers + R"(], "camera": {"near_m": 0.01}})";
+        EXPECT_TRUE(write_file(folder / "a.scene.json", std::string_view(text)));
+        Result<World> world = read_world(folder / "a.scene.json");
+        EXPECT_TRUE(world) << world.error().message;
+        if (!world) return World();
+        EXPECT_TRUE(upload(*world));
+        return std::move(*world);
+    };
+    World apart = world_of(R"({"asset": "cube.ovl", "method": "discrete", "instances": [{"translation_m": [0, 0, 0]}]},
+        {"asset": "cube.ovl", "method": "discrete", "instances": [{"translation_m": [1, 0, 0]}],
+         "transform": {"translation_m": [1, 2, 0], "rotation_z_deg": 90, "scale": 2}})");
+    World together = world_of(R"({"asset": "cube.ovl", "method": "discrete", "instances": [{},
+        {"translation_m": [1, 4, 0], "rotation_z_deg": 90, "scale": 2}]})");
+    ASSERT_EQ(apart.chains.size(), 2u);
+    CourseResult two = fly(apart, context->renderer(), kEvery, 3), one = fly(together, context->renderer(), kEvery, 3);
+    for (size_t run = 0; run < one.runs.size(); ++run) {
+        SCOPED_TRACE(one.runs[run].label);
+        for (size_t frame = 0; frame < 3; ++frame) {
+            const FrameRecord &a = two.runs[run].frames[frame], &b = one.runs[run].frames[frame];
+            EXPECT_GT(a.counters.triangle_count, 0u);
+            EXPECT_EQ(a.counters.triangle_count, b.counters.triangle_count);
+            EXPECT_EQ(a.numbers.psnr_db, b.numbers.psnr_db);
+        }
+    }
+    EXPECT_LT(*two.runs.back().frames[0].numbers.psnr_db, 99);  // something of it was seen
+}
+
+TEST(MeasuredChain, NamesTheLayerThatIsNone) {
+    ScratchFolder folder;
+    write_chain(folder / "cube.ovl", discrete::made::simple_chain());
+    container::Writer writer = *container::Writer::create(folder / "valley.ovl", terrain::kKind);
+    ASSERT_TRUE(writer.commit());
+    EXPECT_TRUE(write_file(folder / "a.scene.json", std::string_view(R"({"version": 1, "layers": [
+        {"asset": "cube.ovl", "method": "discrete"}, {"asset": "valley.ovl", "method": "terrain"}]})")));
+    Result<World> world = read_world(folder / "a.scene.json");
+    ASSERT_FALSE(world);
+    EXPECT_EQ(world.error().exit, Exit::impossible);
+    EXPECT_EQ(world.error().message, (folder / "a.scene.json") + ": /layers/1: " + (folder / "valley.ovl") +
+                                         " is no chain of levels, and there are 2 layers; measure draws scenes of one terrain, "
+                                         "one mesh or chains of levels");
+}
+
 TEST(MeasuredChain, IsNotForOtherMethods) {
     World chain, mesh, terrain;
     chain.name = "trees.json", mesh.name = "duck.ovl", terrain.name = "valley.json";
-    chain.chain.emplace(), mesh.mesh.emplace();
+    chain.chains.emplace_back(), mesh.mesh.emplace();
     auto refusal = [](const char* method, const World& world) {
         std::vector<MethodSpec> specs = {*parse_method(method)};
         Result<void> checked = check_draws(specs, world);

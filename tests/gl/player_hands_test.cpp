@@ -27,6 +27,20 @@ TEST(PressedKeys, GoThroughTheMethodsOfMeshes) {
     EXPECT_EQ(style.look.look, terrain::Look::shaded);  // four times
 }
 
+TEST(PressedKeys, GoThroughTheMethodsOfChains) {
+    player::FrameStyle style;
+    style.method = player::default_method(player::Thing::chain);
+    style.thing = player::Thing::chain;
+    player::Presses press;
+    press.method = 1;
+    using enum player::Method;
+    EXPECT_EQ(style.method, discrete);
+    for (player::Method then : {discrete_fsi_paper, discrete_switch, discrete_blend, discrete_dither, discrete_late, discrete}) {
+        player::press(style, press);
+        EXPECT_EQ(style.method, then);
+    }
+}
+
 TEST(PressedKeys, ChangeTheMethodAndWhatItShows) {
     player::FrameStyle style;
     player::Presses wireframe, sources, method;

@@ -77,7 +77,9 @@ TEST_F(Player, RefusesWhatAMethodCannotDo) {
     EXPECT_EQ(play(file_ + " --headless --method lod-sprit"), 2);
     EXPECT_EQ(output_,
               "player: --method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, "
-              "lod-sprite:paper, caveclod, caveclod:paper, caveclod:shared, discrete)\n");
+              "lod-sprite:paper, caveclod, caveclod:paper, caveclod:shared, discrete, discrete:fsi, discrete:fsi-paper, "
+              "discrete:switch, "
+              "discrete:blend, discrete:dither, discrete:late)\n");
 }
 
 TEST_F(Player, DrawsLodSpriteInAWindowAsWithoutOne) {

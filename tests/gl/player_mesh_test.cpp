@@ -63,7 +63,7 @@ TEST_F(MeshPlayer, RefusesMethodsOfTheOtherKind) {
     EXPECT_EQ(output_, "player: --method terrain: it draws terrains, and " + mesh_ +
                            " holds a mesh; that takes caveclod, caveclod:paper, caveclod:shared, discrete, lod-sprite\n");
     EXPECT_EQ(play(file_ + " --method discrete --headless"), 2);
-    EXPECT_EQ(output_, "player: --method discrete: it draws meshes, and " + file_ +
+    EXPECT_EQ(output_, "player: --method discrete: it draws meshes and chains of levels, and " + file_ +
                            " holds a terrain; that takes terrain, lod-sprite, lod-sprite:paper\n");
     EXPECT_EQ(play(mesh_ + " --morph 1 --headless"), 2);
     EXPECT_TRUE(is_one_line()) << output_;

@@ -28,8 +28,9 @@ discrete::FrameOptions options_of(const MethodSpec& spec) {
 class Chain : public Method {
   public:
     Chain(World& world, const MethodSpec& spec) : world_(world) {
-        Result<std::unique_ptr<discrete::FrameDrawer>> frames =
-            discrete::FrameDrawer::make(*world.chain->drawing, world.chain->placements, options_of(spec));
+        std::vector<discrete::Stand> stands;
+        for (const ChainWorld& one : world.chains) stands.push_back({&*one.drawing, one.placements});
+        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(stands, options_of(spec));
         assert(frames);
         frames_ = std::move(*frames);
     }

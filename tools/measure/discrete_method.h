@@ -22,7 +22,7 @@ std::span<const DiscreteVariant> discrete_variants();
 // What of its settings is also one of a mesh drawn by levels for the whole of it.
 bool is_of_whole_meshes(std::string_view setting_name);
 
-// The world must hold a chain, be uploaded and outlive it.
+// The world must hold chains, be uploaded and outlive it.
 std::unique_ptr<Method> make_chain_method(World& world, const MethodSpec& spec);
 
 }  // namespace overlook::measure

@@ -24,8 +24,8 @@ class Full : public Method {
 }  // namespace
 
 FullGeometry::FullGeometry(World& world) : world_(&world) {
-    if (world.chain) {
-        lists_ = std::make_unique<discrete::ListBuffers>();
+    if (world.is_chain()) {
+        lists_.resize(world.chains.size());
         return;
     }
     if (!world.mesh) {
@@ -36,25 +36,33 @@ FullGeometry::FullGeometry(World& world) : world_(&world) {
     buffers_->take(caveclod::faces_within(*world.mesh->mesh, kEverything_m).by_surface);
 }
 
-Counters FullGeometry::draw_chain(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
-    const ChainWorld& world = *world_->chain;
-    discrete::FrameList frame = discrete::finest_frame(world.facts, world.placements, camera);
-    discrete::DrawList list =
-        discrete::draw_list(world.drawing->layout(), *world.chain, frame, world.placements, camera, world_->time_s);
+Counters FullGeometry::draw_chains(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
     Counters counters;
-    counters.uploaded_bytes = lists_->fill(list);
+    std::vector<discrete::DrawList> lists;
+    uint32_t first_instance = 0;
+    for (const ChainWorld& one : world_->chains) {
+        discrete::FrameList frame = discrete::finest_frame(one.facts, one.placements, camera);
+        lists.push_back(discrete::draw_list(one.drawing->layout(), *one.chain, frame, one.placements, camera, world_->time_s,
+                                            first_instance));
+        first_instance += uint32_t(one.placements.size());
+        counters.triangle_count += frame.triangle_count;
+        counters.tested_count += frame.tested_count;
+    }
+    std::vector<discrete::Drawn> parts;
+    for (size_t i = 0; i < lists.size(); ++i) {
+        counters.uploaded_bytes += lists_[i].fill(lists[i]);
+        parts.push_back({&*world_->chains[i].drawing, &lists_[i], &lists[i]});
+    }
     discrete::DrawOptions look;
     look.part = part;
-    counters.draw_call_count = world.drawing->draw(target, *lists_, list, look);
-    counters.triangle_count = frame.triangle_count;
+    counters.draw_call_count = discrete::draw(target, parts, look);
     counters.vertex_reference_count = 3 * counters.triangle_count;
     counters.resident_bytes = world_->resident_bytes;
-    counters.tested_count = frame.tested_count;
     return counters;
 }
 
 Counters FullGeometry::draw(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
-    if (world_->chain) return draw_chain(target, camera, part);
+    if (world_->is_chain()) return draw_chains(target, camera, part);
     if (!world_->mesh) {
         terrain::DrawOptions look = world_->look;
         look.part = part;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "tools/measure/method.h"
 #include "tools/measure/world.h"
@@ -18,12 +19,12 @@ class FullGeometry {
     Counters draw(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part = std::nullopt);
 
   private:
-    Counters draw_chain(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part);
+    Counters draw_chains(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part);
 
     World* world_;
     terrain::Cut cut_;                                  // of a terrain: every triangle of the raster
     std::unique_ptr<caveclod::CameraBuffers> buffers_;  // of a mesh: every face
-    std::unique_ptr<discrete::ListBuffers> lists_;      // of a chain: the finest level of all instances in view
+    std::vector<discrete::ListBuffers> lists_;          // of each chain: the finest level of all instances in view
 };
 
 std::unique_ptr<Method> make_full_method(World& world);

@@ -25,7 +25,7 @@ Result<scene::Scene> scene_of(const std::string& path) {
     return scene;
 }
 
-constexpr const char* kOnly = "measure draws scenes of one terrain, mesh or chain of levels";
+constexpr const char* kOnly = "measure draws scenes of one terrain, one mesh or chains of levels";
 
 // These say the near plane's distance, metres, so near that nothing is cut off that can be seen.
 Result<double> read_terrain(const container::Reader& file, World& world) {
@@ -56,18 +56,38 @@ Result<double> read_chain(const container::Reader& file, const scene::Layer& lay
     constexpr double kNearShare = 1e-5;  // of the least thing's size, likewise
     Result<discrete::Chain> chain = discrete::read(file);
     if (!chain) return tl::unexpected(chain.error());
-    const ChainWorld& made = world.chain.emplace(chain_world(std::move(*chain), layer.instances));
+    const ChainWorld& made = world.chains.emplace_back(chain_world(std::move(*chain), layer.instances, layer.transform));
     double least_m = std::numeric_limits<double>::infinity();
     for (const discrete::Placement& one : made.placements) least_m = std::min(least_m, one.scale * made.chain->radius_m);
     return std::min(0.5, kNearShare * std::max(least_m, 1e-6));
 }
 
-// By the kind of the file.
-Result<double> read_asset(const container::Reader& file, const std::string& path, const scene::Layer& layer, World& world) {
-    if (file.kind() == discrete::kKind) return read_chain(file, layer, world);
+// By the kind of the file. hash grows by what it holds.
+Result<double> read_layer(const scene::Scene& scene, const std::string& path, size_t place, World& world, std::string& hash) {
+    const scene::Layer& layer = scene.layers[place];
+    std::string asset = scene::asset_path(path, layer);
+    Result<MappedFile> bytes = MappedFile::open(asset);
+    if (!bytes) return tl::unexpected(bytes.error());
+    hash += content_hash(bytes->bytes());
+    Result<container::Reader> file = container::Reader::open(asset);
+    if (!file) return tl::unexpected(file.error());
+    if (file->kind() == discrete::kKind) return read_chain(*file, layer, world);
+    if (scene.layers.size() > 1) {
+        return impossible("{}: /layers/{}: {} is no chain of levels, and there are {} layers; {}", path, place, file->name(),
+                          scene.layers.size(), kOnly);
+    }
     if (!layer.instances.empty())
-        return bad_input("{}: /layers/0/instances: {} is no chain of levels", path, file.name());
-    return file.kind() == caveclod::kKind ? read_mesh(file, world) : read_terrain(file, world);
+        return bad_input("{}: /layers/{}/instances: {} is no chain of levels", path, place, file->name());
+    Result<double> near_m = file->kind() == caveclod::kKind ? read_mesh(*file, world) : read_terrain(*file, world);
+    if (!near_m) return near_m;
+    world.transform = layer.transform;
+    return *near_m * layer.transform.scale;
+}
+
+discrete::Placement placed(const scene::Transform& whole, const scene::Transform& instance) {
+    discrete::Placement outer = discrete::placement_of(whole), inner = discrete::placement_of(instance);
+    return {outer.at(inner.translation_m), outer.cosine * inner.cosine - outer.sine * inner.sine,
+            outer.sine * inner.cosine + outer.cosine * inner.sine, outer.scale * inner.scale};
 }
 
 }  // namespace
@@ -75,27 +95,25 @@ Result<double> read_asset(const container::Reader& file, const std::string& path
 Result<World> read_world(const std::string& path) {
     Result<scene::Scene> scene = scene_of(path);
     if (!scene) return tl::unexpected(scene.error());
-    if (scene->layers.size() != 1) return impossible("{}: has {} layers; {}", path, scene->layers.size(), kOnly);
-    std::string asset = scene::asset_path(path, scene->layers[0]);
-    Result<MappedFile> scene_file = MappedFile::open(path), asset_file = MappedFile::open(asset);
+    Result<MappedFile> scene_file = MappedFile::open(path);
     if (!scene_file) return tl::unexpected(scene_file.error());
-    if (!asset_file) return tl::unexpected(asset_file.error());
-    Result<container::Reader> file = container::Reader::open(asset);
-    if (!file) return tl::unexpected(file.error());
 
     World world;
     world.name = path.substr(path.rfind('/') + 1);
-    world.asset_path = asset;
-    std::string hashes = content_hash(scene_file->bytes()) + content_hash(asset_file->bytes());
+    world.asset_path = scene::asset_path(path, scene->layers.front());
+    std::string hashes = content_hash(scene_file->bytes());
+    double near_m = std::numeric_limits<double>::infinity();
+    for (size_t place = 0; place < scene->layers.size(); ++place) {
+        Result<double> least_m = read_layer(*scene, path, place, world, hashes);
+        if (!least_m) return tl::unexpected(least_m.error());
+        near_m = std::min(near_m, *least_m);
+    }
     world.content_hash = content_hash(std::as_bytes(std::span(hashes)));
-    Result<double> near_m = read_asset(*file, path, scene->layers[0], world);
-    if (!near_m) return tl::unexpected(near_m.error());
     world.look.haze = scene->light.haze;
     // Mesa 22.3's llvmpipe loops for seconds, or for ever, on some triangles with anisotropic filtering.
     world.look.anisotropy = 1;
-    world.transform = scene->layers[0].transform;
     world.base.fov_y_deg = scene->camera.fov_y_deg;
-    world.base.near_m = scene->camera.near_m.value_or(*near_m * world.transform.scale);
+    world.base.near_m = scene->camera.near_m.value_or(near_m);
     return world;
 }
 
@@ -109,23 +127,23 @@ view::Camera World::local(const view::Camera& camera) const {
     return is_mesh() || is_chain() ? own : terrain::with_clear_near_plane(*terrain, own);
 }
 
-ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances) {
+ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances, const scene::Transform& whole) {
     ChainWorld made;
     made.chain = std::make_unique<discrete::Chain>(std::move(chain));
     made.facts = discrete::facts_of(*made.chain);
-    for (const scene::Transform& instance : instances) made.placements.push_back(discrete::placement_of(instance));
-    if (instances.empty()) made.placements.emplace_back();
+    for (const scene::Transform& instance : instances) made.placements.push_back(placed(whole, instance));
+    if (instances.empty()) made.placements.push_back(discrete::placement_of(whole));
     return made;
 }
 
 Result<void> upload(World& world) {
-    if (world.is_chain()) {
-        Result<discrete::Drawing> drawing = discrete::Drawing::make(*world.chain->chain);
+    for (ChainWorld& one : world.chains) {
+        Result<discrete::Drawing> drawing = discrete::Drawing::make(*one.chain);
         if (!drawing) return tl::unexpected(drawing.error());
-        world.resident_bytes = drawing->bytes();
-        world.chain->drawing.emplace(std::move(*drawing));
-        return {};
+        world.resident_bytes += drawing->bytes();
+        one.drawing.emplace(std::move(*drawing));
     }
+    if (world.is_chain()) return {};
     if (world.is_mesh()) {
         Result<caveclod::Drawing> drawing = caveclod::Drawing::make(*world.mesh->mesh);
         if (!drawing) return tl::unexpected(drawing.error());

@@ -33,7 +33,7 @@ struct MeshWorld {
     std::unique_ptr<MeshHonesty> honesty_;
 };
 
-// A chain of levels and where it stands.
+// A chain of levels and where it stands in the scene.
 struct ChainWorld {
     std::unique_ptr<discrete::Chain> chain;
     std::optional<discrete::Drawing> drawing;
@@ -41,7 +41,7 @@ struct ChainWorld {
     discrete::ChainFacts facts;
 };
 
-// Holds a terrain, a mesh or a chain of levels. Must go before the context that it was uploaded to.
+// Holds a terrain, a mesh or chains of levels. Must go before the context that it was uploaded to.
 struct World {
     std::string name;          // of the scene's file, without its folder
     std::string content_hash;  // of the scene and of everything it names
@@ -51,29 +51,30 @@ struct World {
     std::optional<terrain::Drawing> drawing;
     terrain::DrawOptions look;        // the same for every method and the reference
     std::optional<MeshWorld> mesh;    // then there is no terrain
-    std::optional<ChainWorld> chain;  // then there is neither
+    std::vector<ChainWorld> chains;   // if there are any there is neither
     uint64_t resident_bytes = 0;      // on the card without what changes from frame to frame
-    scene::Transform transform;       // from the thing's own frame into the scene's
+    scene::Transform transform;       // from the thing's own frame into the scene's; of chains, whose placements hold it, none
     view::Camera base;                // what a flight does not say: near plane, field of view
     double step_s = 1.0 / 60;         // of the logical clock, from frame to frame
     double time_s = 0;                // of that clock, of the frame that is drawn: where what moves by itself is
 
     bool is_mesh() const { return mesh.has_value(); }
-    bool is_chain() const { return chain.has_value(); }
+    bool is_chain() const { return !chains.empty(); }
     std::string_view thing() const { return is_chain() ? "chain of levels" : is_mesh() ? "mesh" : "terrain"; }
     // A camera of the scene in the thing's own frame, its near plane where it cuts nothing off.
     view::Camera local(const view::Camera& camera) const;
 };
 
-// A chain that stands where instances say; none: once, as it is.
-ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances);
+// A chain that stands where instances say, or once if there are none; and all of it moved by `whole`.
+ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances, const scene::Transform& whole = {});
 
-// Reads a scene (.json), or a baked terrain, mesh or chain by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
+// Reads a scene (.json) of one terrain, one mesh or any number of chains, or a baked file of one by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
 // scene::read_scene, terrain::read, caveclod::read and discrete::read, and
 //   "a.scene.json: /layers/0/instances: duck.ovl is no chain of levels"
 // and with Exit::impossible:
-//   "a.scene.json: has 2 layers; measure draws scenes of one terrain, mesh or chain of levels"
-//   "a.ovl: a file of kind WLDI cannot be measured; measure draws scenes of one terrain, mesh or chain of levels"
+//   "a.scene.json: /layers/1: duck.ovl is no chain of levels, and there are 2 layers; measure draws scenes of one terrain, one
+//   mesh or chains of levels"
+//   "a.ovl: a file of kind WLDI cannot be measured; measure draws scenes of one terrain, one mesh or chains of levels"
 Result<World> read_world(const std::string& path);
 
 // Puts it on the graphics card, once; needs a current context. Fails with Exit::impossible.

@@ -118,7 +118,7 @@ inline Chain simple_chain(double cube_half_m = 0.8) {
     end_level(chain, globe(chain, glm::dvec3(0), 1, 16, {210, 50, 40, 255}), 0);
     double error_m = std::max(cube_half_m * std::sqrt(3.0) - 1, 1 - cube_half_m) + globe_error_m(1, 16);
     end_level(chain, cube(chain, cube_half_m, {40, 80, 220, 255}), error_m);
-    chain.radius_m = std::max(1.0, cube_half_m * std::sqrt(3.0));
+    chain.radius_m = std::max(1.0, cube_half_m * std::sqrt(3.0)) + chain.position_step_m;
     return chain;
 }
 

@@ -5,6 +5,8 @@
 
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/bake.h"
+#include "tools/bake/caveclod/cut.h"
+#include "tools/bake/caveclod/turned_faces.h"
 #include "tools/bake/mesh_provenance.h"
 #include "tools/baked/prove_caveclod.h"
 
@@ -81,6 +83,64 @@ TEST(MeshProof, FindsFacesThatAreTurned) {
     for (uint32_t p = 0; p < hierarchy.base_position_count; ++p) hierarchy.positions_m[p] = -hierarchy.positions_m[p];
     EXPECT_GT(proof_of(hierarchy, mesh).cuts.turned_count, 0u);
     EXPECT_FALSE(proof_of(hierarchy, mesh).holds());
+}
+
+// [P] whether a position is of the upper of two sheets.
+std::vector<uint8_t> upper_positions(const Hierarchy& h, double between_m) {
+    std::vector<uint8_t> is_upper;
+    for (const glm::vec3& p : h.positions_m) is_upper.push_back(double(p.z) + h.origin_m.z > between_m);
+    return is_upper;
+}
+
+// Faces of a cut turned from their own sheet, each held against all of it.
+uint64_t turned_from_own_sheet(const Hierarchy& h, const CutFaces& cut, const std::vector<uint8_t>& is_upper) {
+    auto triangle_of = [&](const std::array<uint32_t, 3>& f) {
+        return Triangle{glm::dvec3(h.positions_m[f[0]]), glm::dvec3(h.positions_m[f[1]]), glm::dvec3(h.positions_m[f[2]])};
+    };
+    std::array<std::vector<Triangle>, 2> sheets;
+    for (const auto& face : faces_of(h, Applied(h.split_count(), 1)).positions)
+        sheets[is_upper[face[0]]].push_back(triangle_of(face));
+    std::array<TriangleTree, 2> trees{TriangleTree(sheets[0]), TriangleTree(sheets[1])};
+    uint64_t count = 0;
+    for (const auto& face : cut.positions)
+        count += is_turned(trees[is_upper[face[0]]], triangle_of(face), turn_slack_m(h.positions_m));
+    return count;
+}
+
+// Of the lower sheet, the base's positions and those next to them look down, on ledges, and all else lies beneath them and looks
+// up: near its corners a coarse face finds nothing that looks away, in its middle all does.
+void undercut(Hierarchy& h, const std::vector<uint8_t>& is_upper) {
+    std::vector<int> ring(h.positions_m.size(), 2);
+    std::fill_n(ring.begin(), h.base_position_count, 0);
+    for (const auto& face : faces_of(h, Applied(h.split_count(), 1)).positions)
+        if (std::any_of(face.begin(), face.end(), [&](uint32_t p) { return ring[p] == 0; }))
+            for (uint32_t p : face) ring[p] = std::min(ring[p], 1);
+    for (uint32_t p = 0; p < ring.size(); ++p) {
+        if (is_upper[p]) continue;
+        glm::vec3& at_m = h.positions_m[p];
+        if (ring[p] < 2) at_m.x = 1 - 2 * float(h.origin_m.x) - at_m.x;
+        at_m.z -= ring[p] == 0 ? 0.2f : ring[p] == 1 ? 0.25f : 0.5f;
+    }
+}
+
+// However large or small the errors are that a file states: none is hidden by them, and none made up.
+TEST(MeshProof, FindsTheSameFacesTurnedWhateverErrorIsStated) {
+    Hierarchy h = baked(test::facing_sheets(24, 0.1));
+    ProofOptions options;
+    options.cut_count = 20;
+    EXPECT_EQ(prove_cuts(h, options).turned_count, 0u);
+    std::vector<uint8_t> is_upper = upper_positions(h, 0.05);
+    undercut(h, is_upper);
+    for (float scale : {1.0f, 0x1p-20f, 0x1p20f}) {
+        Hierarchy told = h;
+        for (float& error_m : told.error_m) error_m *= scale;
+        told.finest_error_m *= scale;
+        uint64_t expected = 0;
+        for (uint64_t i = 0; i < options.cut_count; ++i)
+            expected += turned_from_own_sheet(told, faces_of(told, proof_cut(told, options, i)), is_upper);
+        EXPECT_GT(expected, 20u);
+        EXPECT_EQ(prove_cuts(told, options).turned_count, expected) << scale;
+    }
 }
 
 TEST(MeshProof, KnowsTrianglesWithTwoCornersInOnePlace) {

@@ -37,6 +37,19 @@ inline mesh::Mesh grid(uint32_t columns, uint32_t rows, const std::function<doub
     return mesh;
 }
 
+// Two sheets of side x side squares with a relief, `apart_m` from each other: the lower looks up, the upper down.
+inline mesh::Mesh facing_sheets(uint32_t side, double apart_m) {
+    auto relief_m = [](double x, double y) { return 0.02 * std::sin(9 * x) * std::cos(7 * y); };
+    mesh::Mesh mesh = grid(side, side, relief_m);
+    mesh::Mesh upper = grid(side, side, [&](double x, double y) { return apart_m + relief_m(y, x); });
+    uint32_t first = uint32_t(mesh.positions_m.size());
+    mesh.positions_m.insert(mesh.positions_m.end(), upper.positions_m.begin(), upper.positions_m.end());
+    for (const mesh::Corners& face : upper.faces) mesh.faces.push_back({first + face[0], first + face[2], first + face[1]});
+    mesh.face_source.clear(), mesh.surfaces.clear();
+    finish(mesh);
+    return mesh;
+}
+
 // A closed strip of columns x rows squares, wrapped round in x, and in y as well if `is_torus`; else closed by fans at two poles.
 inline mesh::Mesh torus(uint32_t columns, uint32_t rows, double major_m, double minor_m) {
     mesh::Mesh mesh;

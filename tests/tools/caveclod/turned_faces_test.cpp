@@ -7,6 +7,7 @@
 
 #include "tests/tools/caveclod/test_meshes.h"
 #include "tools/bake/caveclod/distances.h"
+#include "tools/bake/caveclod/source_parts.h"
 
 namespace overlook::caveclod {
 namespace {
@@ -64,6 +65,41 @@ TEST(TurnedFaces, AreTheSameHoweverTheyAreLookedFor) {
         EXPECT_EQ(first_turned(source, std::span(&face, 1), 3 * size_m, kSlack_m), is ? 0u : 1u);
         uint32_t guess = uint32_t(random() % source.triangles().size());
         EXPECT_EQ(is_turned(source, face, kSlack_m, guess), is) << guess;
+        turned += is;
+    }
+    EXPECT_GT(turned, 500u);
+    EXPECT_LT(turned, 2500u);
+}
+
+// Two sheets that face each other: whose a face is, is what counts, and not which of the two is nearer.
+TEST(SourceParts, JudgeAFaceByItsOwnHoweverFarItIs) {
+    mesh::Mesh both = test::facing_sheets(6, 0.5);
+    SourceParts parts(both.positions_m, both.faces);
+    ASSERT_EQ(parts.count(), 2u);
+    uint32_t lower = 7, upper = uint32_t(both.faces.size()) - 7;
+    for (double height_m : {-30.0, -1.0, 0.0, 0.2, 0.3, 0.5, 0.8, 40.0}) {
+        Triangle face{glm::dvec3(0.2, 0.2, height_m), glm::dvec3(0.8, 0.2, height_m), glm::dvec3(0.2, 0.8, height_m)};
+        EXPECT_FALSE(parts.is_turned(face, kSlack_m, lower)) << height_m;
+        EXPECT_TRUE(parts.is_turned(face, kSlack_m, upper)) << height_m;
+        EXPECT_TRUE(parts.is_turned(back_of(face), kSlack_m, lower)) << height_m;
+        EXPECT_FALSE(parts.is_turned(back_of(face), kSlack_m, upper)) << height_m;
+    }
+}
+
+TEST(SourceParts, FindWhatIsTurnedWithNobodysWordForHowFarItIs) {
+    mesh::Mesh mesh = test::sphere(40, 20, 0.2);
+    SourceParts parts(mesh.positions_m, mesh.faces);
+    TriangleTree source = tree_of(mesh);
+    std::mt19937 random(6);
+    auto share = [&] { return double(random()) / 4294967296.0; };
+    size_t turned = 0;
+    for (int i = 0; i < 3000; ++i) {
+        uint32_t guess = uint32_t(random() % mesh.faces.size());
+        double size_m = share() * share();
+        Triangle face;
+        for (glm::dvec3& p : face) p = source.triangle(guess)[0] + (glm::dvec3(share(), share(), share()) - 0.5) * size_m;
+        bool is = is_turned(source, face, kSlack_m);
+        EXPECT_EQ(parts.is_turned(face, kSlack_m, guess), is);
         turned += is;
     }
     EXPECT_GT(turned, 500u);

@@ -45,12 +45,11 @@ struct Measured {
 };
 
 // Faces that are as in the source are not turned from it.
-uint64_t turned_count(const Hierarchy& h, const Source& source, const CutFaces& cut, double stated_m) {
+uint64_t turned_count(const Hierarchy& h, const Source& source, const CutFaces& cut) {
     uint64_t count = 0;
     for (size_t f = 0; f < cut.face.size(); ++f) {
         if (cut.positions[f] == source.finest.positions[cut.face[f]]) continue;
-        Triangle face = triangle_of(h, cut.positions[f]);
-        count += source.parts.first_turned(std::span(&face, 1), stated_m, source.slack_m, std::span(&cut.face[f], 1)) == 0;
+        count += source.parts.is_turned(triangle_of(h, cut.positions[f]), source.slack_m, cut.face[f]);
     }
     return count;
 }
@@ -60,7 +59,7 @@ Measured measure(const Hierarchy& h, const Source& source, const ProofOptions& o
     CutFaces cut = faces_of(h, applied);
     double stated_m = stated_error_m(h, applied);
     Distance distance = two_sided_distance(tree_of(h, cut), source.tree, 0.02, source.rounding_m, options.steps);
-    return {stated_m, distance.least_m, cut.face.size(), turned_count(h, source, cut, stated_m)};
+    return {stated_m, distance.least_m, cut.face.size(), turned_count(h, source, cut)};
 }
 
 }  // namespace

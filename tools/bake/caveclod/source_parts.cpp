@@ -1,5 +1,8 @@
 #include "tools/bake/caveclod/source_parts.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "formats/parallel.h"
 #include "tools/bake/caveclod/disjoint_sets.h"
 
@@ -27,6 +30,17 @@ size_t SourceParts::first_turned(std::span<const Triangle> faces, double away_m,
     std::vector<uint32_t> places;
     for (uint32_t guess : guesses) places.push_back(place_[guess]);
     return caveclod::first_turned(trees_[part_[guesses[0]]], faces, away_m, slack_m, places);
+}
+
+// No point of a face is farther from the source than its middle, and from there to the farthest corner.
+bool SourceParts::is_turned(const Triangle& face, double slack_m, uint32_t guess) const {
+    const TriangleTree& part = trees_[part_[guess]];
+    glm::dvec3 middle = (face[0] + face[1] + face[2]) / 3.0;
+    const Triangle& near = part.triangle(place_[guess]);
+    double most_m = std::sqrt(distance2_to_triangle(middle, probe_of(near[0], near[1], near[2])));
+    double away_m = part.nearest(middle, most_m).distance_m, half_m = 0;
+    for (const glm::dvec3& corner : face) half_m = std::max(half_m, glm::distance(middle, corner));
+    return first_turned(std::span(&face, 1), away_m + half_m, slack_m, std::span(&guess, 1)) == 0;
 }
 
 }  // namespace overlook::caveclod

@@ -23,6 +23,10 @@ class SourceParts {
     // part.
     size_t first_turned(std::span<const Triangle> faces, double away_m, double slack_m, std::span<const uint32_t> guesses) const;
 
+    // Whether a drawn face is_turned from the part that it belongs to. guess: a face of the source, of that part. How near the
+    // source is to the face is measured, from the face's middle, and nobody's word for it taken.
+    bool is_turned(const Triangle& face, double slack_m, uint32_t guess) const;
+
     size_t count() const { return trees_.size(); }
 
   private:
