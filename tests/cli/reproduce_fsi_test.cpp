@@ -60,7 +60,7 @@ TEST_F(ReproduceFsi, RefusesWhatItCannotFly) {
     expect_refusal(run(words()), 3, "reproduce fsi", {"flight.json"});
     write_text(simple_ + "/scene.json",
                R"({"version": 1, "layers": [{"asset": "plain.ovl", "method": "discrete"}], "error_px": 1})");
-    expect_refusal(run(words()), 5, "reproduce fsi", {"nothing in it has instances"});
+    expect_refusal(run(words()), 5, "reproduce fsi", {"holds no chain of several levels"});
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

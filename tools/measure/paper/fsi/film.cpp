@@ -7,6 +7,7 @@
 
 #include "tools/measure/figures.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/paper/fsi/subject.h"
 
 namespace overlook::measure::paper::fsi {
 namespace {
@@ -23,7 +24,7 @@ double film_focal_px() {
     return kFilmHeight_px / (2 * std::tan(kFilmFov_deg * std::numbers::pi / 360));
 }
 
-scene::Transform standing(const discrete::Chain& chain, double distance_m, double angle_deg) {
+scene::Transform standing(const discrete::Chain& chain, double up_m, double distance_m, double angle_deg) {
     double angle = angle_deg * std::numbers::pi / 180;
     scene::Transform one;
     // The middle of the thing, not its foot, is so far away, whichever way it is turned.
@@ -31,16 +32,17 @@ scene::Transform standing(const discrete::Chain& chain, double distance_m, doubl
     double turn = one.rotation_z_deg * std::numbers::pi / 180, c = std::cos(turn), s = std::sin(turn);
     const glm::dvec3& middle = chain.middle_m;
     one.translation_m = {distance_m * std::sin(angle) - (c * middle.x - s * middle.y),
-                         distance_m * std::cos(angle) - (s * middle.x + c * middle.y), -middle.z};
+                         distance_m * std::cos(angle) - (s * middle.x + c * middle.y), up_m};
     return one;
 }
 
-std::vector<scene::Transform> standing(const discrete::Chain& chain, const Stand& stand) {
+// up_m: above the ground.
+std::vector<scene::Transform> standing(const discrete::Chain& chain, double up_m, const Stand& stand) {
     std::vector<scene::Transform> all;
     auto add = [&](uint32_t count, double distance_m) {
         for (uint32_t i = 0; i < count; ++i) {
             double share = count == 1 ? 0.5 : double(i) / (count - 1);
-            all.push_back(standing(chain, distance_m, kHalfArc_deg * (2 * share - 1)));
+            all.push_back(standing(chain, up_m, distance_m, kHalfArc_deg * (2 * share - 1)));
         }
     };
     add(stand.count, stand.distance_m);
@@ -53,7 +55,7 @@ std::vector<view::Camera> cameras_of(const Stand& stand, const view::Camera& bas
     for (uint32_t frame = 0; frame < kFilmFrames; ++frame) {
         double beyond = double(frame) - (kBefore - 0.5);  // frames from the arc's middle: passed between two frames
         view::Camera camera = base;
-        camera.position_m = beyond * kPace * stand.distance_m * glm::dvec3(1, 1, 0);
+        camera.position_m = base.position_m + beyond * kPace * stand.distance_m * glm::dvec3(1, 1, 0);
         camera.heading_deg = beyond * kYaw_deg;
         cameras.push_back(camera);
     }
@@ -96,13 +98,20 @@ std::string settings_of(const Stand& stand, const Way& way) {
     return fmt::format("@by=distance@distance-m={}@refine-share=1@coarsen-share=0.99", first_m);
 }
 
-Result<Film> shoot(const discrete::Chain& chain, const Script& script, const gl::Renderer& renderer,
-                   const std::string& cache_folder, const std::function<void(double)>& done) {
+Result<Film> shoot(const World& scene, const Script& script, const gl::Renderer& renderer,
+                   const std::function<void(double)>& done) {
     World world;
     world.name = script.name;
     world.base.width_px = kFilmWidth_px, world.base.height_px = kFilmHeight_px;
     world.base.fov_y_deg = kFilmFov_deg, world.base.near_m = 0.05;
-    world.chain.emplace(chain_world(chain, standing(chain, script.stand)));
+    const ChainWorld& things = things_of(scene);
+    for (const ChainWorld& one : scene.chains) {
+        ChainWorld& copy = world.chains.emplace_back(chain_world(*one.chain, {}));
+        copy.placements = one.placements;
+    }
+    double up_m = things.placements.front().translation_m.z;
+    world.chains[size_t(&things - scene.chains.data())] = chain_world(*things.chain, standing(*things.chain, up_m, script.stand));
+    world.base.position_m.z = up_m + things.chain->middle_m.z;
     if (Result<void> uploaded = upload(world); !uploaded) return tl::unexpected(uploaded.error());
     Course course;
     for (const Take& take : script.takes) course.specs.push_back(take.run.spec);
@@ -110,7 +119,7 @@ Result<Film> shoot(const discrete::Chain& chain, const Script& script, const gl:
     course.cameras = cameras_of(script.stand, world.base);
     course.step_s = kFilmStep_s;
     course.compared = Compared::steps;
-    Result<CourseResult> flown = run_course(world, course, renderer, cache_folder, done);
+    Result<CourseResult> flown = run_course(world, course, renderer, "", done);
     if (!flown) return tl::unexpected(flown.error());
     Film film{script.name, script.chain, script.stand, {}, {}};
     film.floor = flown->runs[flown->runs[0].floor];

@@ -54,9 +54,9 @@ struct Script {
     std::vector<Take> takes;  // without runs but for their specs
 };
 
-// Flies past. chain: copied. Fails as run_course.
-Result<Film> shoot(const discrete::Chain& chain, const Script& script, const gl::Renderer& renderer,
-                   const std::string& cache_folder, const std::function<void(double)>& done);
+// Flies past. scene: what stands about in it stands on the arc instead, all else as it is; copied. Fails as run_course.
+Result<Film> shoot(const World& scene, const Script& script, const gl::Renderer& renderer,
+                   const std::function<void(double)>& done);
 
 // What of a change was seen. W is taken over the floor's in the same frame: thousandths of luma.
 struct Seen {

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <filesystem>
 
-#include "formats/mapped_file.h"
 #include "runtime/view/flight.h"
 
 namespace overlook::measure::paper::fsi {
@@ -15,31 +14,24 @@ std::string folder_name(const std::string& folder) {
     return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
 }
 
-// What stands about, of another file than the scene names.
-Result<World> world_of(const std::string& scene_path, const scene::Scene& scene, const scene::Layer& layer,
-                       const std::string& asset) {
-    constexpr double kNear_m = 0.5;
-    Result<MappedFile> file = MappedFile::open(asset);
-    if (!file) return tl::unexpected(file.error());
-    Result<discrete::Chain> chain = discrete::read(asset);
-    if (!chain) return tl::unexpected(chain.error());
-    World world;
-    world.name = scene_path.substr(scene_path.rfind('/') + 1);
-    world.asset_path = asset;
-    std::string hashes = content_hash(file->bytes()) + scene::json_from_scene(scene);
-    world.content_hash = content_hash(std::as_bytes(std::span(hashes)));
-    world.chain.emplace(chain_world(std::move(*chain), layer.instances));
-    world.transform = layer.transform;
-    world.base.fov_y_deg = scene.camera.fov_y_deg;
-    world.base.near_m = scene.camera.near_m.value_or(kNear_m);
+bool has_things(const World& world) {
+    return std::any_of(world.chains.begin(), world.chains.end(),
+                       [](const ChainWorld& one) { return one.chain->levels.size() > 1; });
+}
+
+Result<World> world_of(const std::string& path) {
+    Result<World> world = read_world(path);
+    if (world && !has_things(*world))
+        return impossible(
+            "{}: holds no chain of several levels; reproduce fsi flies over what make-sample trees, windmills or simple made",
+            path);
     return world;
 }
 
-Result<void> read_if_there(const std::string& scene_path, const scene::Scene& scene, const scene::Layer& layer,
-                           const std::string& asset, std::optional<World>& into) {
+Result<void> read_if_there(const std::string& path, std::optional<World>& into) {
     std::error_code problem;
-    if (!std::filesystem::exists(asset, problem)) return {};
-    Result<World> read = world_of(scene_path, scene, layer, asset);
+    if (!std::filesystem::exists(path, problem)) return {};
+    Result<World> read = world_of(path);
     if (!read) return tl::unexpected(read.error());
     into.emplace(std::move(*read));
     return {};
@@ -53,25 +45,20 @@ std::string title_of(const std::string& name) {
     return title;
 }
 
+const ChainWorld& things_of(const World& world) {
+    return *std::find_if(world.chains.begin(), world.chains.end(),
+                         [](const ChainWorld& one) { return one.chain->levels.size() > 1; });
+}
+
 Result<Subject> read_subject(const std::string& folder) {
-    std::string path = folder + "/scene.json";
-    Result<scene::Scene> scene = scene::read_scene(path);
-    if (!scene) return tl::unexpected(scene.error());
-    auto layer =
-        std::find_if(scene->layers.begin(), scene->layers.end(), [](const scene::Layer& one) { return !one.instances.empty(); });
-    if (layer == scene->layers.end())
-        return impossible(
-            "{}: nothing in it has instances; reproduce fsi flies over what make-sample trees, windmills or simple made", path);
-    std::string asset = scene::asset_path(path, *layer);
-    Result<World> world = world_of(path, *scene, *layer, asset);
+    Result<World> world = world_of(folder + "/scene.json");
     if (!world) return tl::unexpected(world.error());
     Result<scene::Flight> flight = scene::read_flight(folder + "/flight.json");
     if (!flight) return tl::unexpected(flight.error());
     Subject subject{folder_name(folder), std::move(*world), std::nullopt, std::nullopt, std::move(*flight)};
-    std::string stem = asset.ends_with(".ovl") ? asset.substr(0, asset.size() - 4) : asset;
-    for (auto [suffix, into] : {std::pair("-by-hand.ovl", &subject.by_hand), std::pair("-optimised.ovl", &subject.optimised)}) {
-        if (Result<void> read = read_if_there(path, *scene, *layer, stem + suffix, *into); !read)
-            return tl::unexpected(read.error());
+    for (auto [name, into] :
+         {std::pair("scene-by-hand.json", &subject.by_hand), std::pair("scene-optimised.json", &subject.optimised)}) {
+        if (Result<void> read = read_if_there(folder + "/" + name, *into); !read) return tl::unexpected(read.error());
     }
     return subject;
 }

@@ -14,21 +14,22 @@ namespace overlook::measure::paper::fsi {
 
 struct Subject {
     std::string name;  // of its folder: "trees"
-    World world;       // the chain that scene.json names: Overlook's own, but of SIMPLE
-    // The same instances of levels made by hand, and of levels with a visibility that was optimised; where they are there.
+    World world;       // of scene.json: levels cut by Overlook, but of SIMPLE
+    // The same of levels made by hand, and of levels with a visibility that was optimised; where they are there.
     std::optional<World> by_hand, optimised;
     scene::Flight flight;
-
-    // The paper's levels: made by hand where there are any.
-    World& printed() { return by_hand ? *by_hand : world; }
 };
+
+// What stands about: the first chain that has several levels. The world must hold one.
+const ChainWorld& things_of(const World& world);
 
 // "TREES".
 std::string title_of(const std::string& name);
 
-// Reads FOLDER/scene.json, flight.json and, of the asset NAME.ovl that stands about, NAME-by-hand.ovl and NAME-optimised.ovl
-// where they are there. Fails as scene::read_scene, scene::read_flight and discrete::read; and with Exit::impossible:
-//   "trees/scene.json: nothing in it has instances; reproduce fsi flies over what make-sample trees, windmills or simple made"
+// Reads FOLDER/scene.json, flight.json and, where they are there, scene-by-hand.json and scene-optimised.json. Fails as
+// read_world and scene::read_flight; and with Exit::impossible:
+//   "trees/scene.json: holds no chain of several levels; reproduce fsi flies over what make-sample trees, windmills or simple
+//   made"
 Result<Subject> read_subject(const std::string& folder);
 
 // Puts everything of it on the graphics card. Fails as measure::upload.

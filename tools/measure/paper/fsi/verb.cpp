@@ -17,8 +17,8 @@ double film_error_px(const std::string& name) {
     return name == "simple" ? 8 : 2;
 }
 
-Script script_of(const Subject& subject, const std::string& chain, const discrete::Chain& levels) {
-    Script script{subject.name, chain, stand_of(levels, film_error_px(subject.name)), {}};
+Script script_of(const Subject& subject, const std::string& chain, const World& world) {
+    Script script{subject.name, chain, stand_of(*things_of(world).chain, film_error_px(subject.name)), {}};
     for (const Way& way : kWays) {
         Take take{std::string(way.name), {}};
         take.run.spec = spec_of(way, settings_of(script.stand, way));
@@ -32,17 +32,16 @@ Result<void> shoot_all(std::vector<Subject>& subjects, const gl::Renderer& rende
     struct Job {
         const Subject* subject;
         std::string chain;
-        const discrete::Chain* levels;
+        const World* world;
     };
     std::vector<Job> jobs;
     for (const Subject& subject : subjects) {
-        jobs.push_back({&subject, "", subject.world.chain->chain.get()});
-        if (subject.by_hand) jobs.push_back({&subject, "by hand", subject.by_hand->chain->chain.get()});
+        jobs.push_back({&subject, "", &subject.world});
+        if (subject.by_hand) jobs.push_back({&subject, "by hand", &*subject.by_hand});
     }
     for (size_t i = 0; i < jobs.size(); ++i) {
         const Job& job = jobs[i];
-        if (job.levels->levels.size() < 2) continue;
-        Result<Film> film = shoot(*job.levels, script_of(*job.subject, job.chain, *job.levels), renderer, "",
+        Result<Film> film = shoot(*job.world, script_of(*job.subject, job.chain, *job.world), renderer,
                                   [&](double share) { done((double(i) + share) / double(jobs.size())); });
         if (!film) return tl::unexpected(film.error());
         flown.films.push_back(std::move(*film));
@@ -116,8 +115,8 @@ CLI::App* add_verb(CLI::App& app, PaperOptions& options) {
     CLI::App& verb = *app.add_subcommand(
         "fsi", "Section 4 of the paper on frame-sequential interpolation: figures 1 to 8 as pictures, tables, charts and a page");
     verb.add_option("folder", options.folders,
-                    "What make-sample trees, windmills or simple made, with what scene.json names baked into it, and "
-                    "NAME-by-hand.ovl and NAME-optimised.ovl beside it where they are to be flown; several")
+                    "What make-sample trees, windmills or simple made, with what its scene.json names (and "
+                    "scene-by-hand.json and scene-optimised.json, where there are any) baked into it; several")
         ->required()
         ->type_name("FOLDER");
     verb.add_option("--frames", options.frames, "Frames of figure 8, of each scene, method and size; of TREES a quarter")
