@@ -7,6 +7,7 @@
 
 #include "tools/measure/figures.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/paper/fsi/easel.h"
 #include "tools/measure/paper/fsi/subject.h"
 
 namespace overlook::measure::paper::fsi {
@@ -50,24 +51,22 @@ std::vector<scene::Transform> standing(const discrete::Chain& chain, double up_m
     return all;
 }
 
-std::vector<view::Camera> cameras_of(const Stand& stand, const view::Camera& base) {
-    std::vector<view::Camera> cameras;
-    for (uint32_t frame = 0; frame < kFilmFrames; ++frame) {
-        double beyond = double(frame) - (kBefore - 0.5);  // frames from the arc's middle: passed between two frames
-        view::Camera camera = base;
-        camera.position_m = base.position_m + beyond * kPace * stand.distance_m * glm::dvec3(1, 1, 0);
-        camera.heading_deg = beyond * kYaw_deg;
-        cameras.push_back(camera);
-    }
-    return cameras;
-}
-
 // Pop index of some frames alone, by the median of all.
 double pop_within(const Take& take, const RunResult& floor, uint32_t first, uint32_t end) {
     std::vector<TemporalError> errors = floor.temporal;
     for (size_t i = 0; i < errors.size(); ++i)
         if (errors[i].frame >= first && errors[i].frame < end) errors[i] = take.run.temporal[i];
     return pop_index(errors, floor.temporal).index;
+}
+
+// Half as wide and as high.
+ImageRgb8 middle_of(const ImageRgb8& image) {
+    ImageRgb8 middle{image.width / 2, image.height / 2, {}};
+    for (uint32_t y = 0; y < middle.height; ++y) {
+        auto from = image.pixels.begin() + std::ptrdiff_t(3) * ((y + image.height / 4) * image.width + image.width / 4);
+        middle.pixels.insert(middle.pixels.end(), from, from + std::ptrdiff_t(3) * middle.width);
+    }
+    return middle;
 }
 
 double excess(const Take& take, const RunResult& floor, uint32_t frame) {
@@ -93,15 +92,29 @@ Stand stand_of(const discrete::Chain& chain, double error_px) {
 
 std::string settings_of(const Stand& stand, const Way& way) {
     if (way.name == kWays[kLate].name) return "";
-    // Level l does from distance_m * 2^(l - 1) on.
-    double first_m = stand.distance_m / std::exp2(double(stand.change));
-    return fmt::format("@by=distance@distance-m={}@refine-share=1@coarsen-share=0.99", first_m);
+    return fmt::format("@by=distance@distance-m={}@refine-share=1@coarsen-share=0.99", first_distance_m(stand));
 }
 
-Result<Film> shoot(const World& scene, const Script& script, const gl::Renderer& renderer,
-                   const std::function<void(double)>& done) {
+double first_distance_m(const Stand& stand) {
+    // Level l does from this times 2^(l - 1) on.
+    return stand.distance_m / std::exp2(double(stand.change));
+}
+
+std::vector<view::Camera> film_cameras(const Stand& stand, const view::Camera& base) {
+    std::vector<view::Camera> cameras;
+    for (uint32_t frame = 0; frame < kFilmFrames; ++frame) {
+        double beyond = double(frame) - (kBefore - 0.5);  // frames from the arc's middle: passed between two frames
+        view::Camera camera = base;
+        camera.position_m = base.position_m + beyond * kPace * stand.distance_m * glm::dvec3(1, 1, 0);
+        camera.heading_deg = beyond * kYaw_deg;
+        cameras.push_back(camera);
+    }
+    return cameras;
+}
+
+Result<World> film_world(const World& scene, const Stand& stand) {
     World world;
-    world.name = script.name;
+    world.name = scene.name;
     world.base.width_px = kFilmWidth_px, world.base.height_px = kFilmHeight_px;
     world.base.fov_y_deg = kFilmFov_deg, world.base.near_m = 0.05;
     const ChainWorld& things = things_of(scene);
@@ -110,13 +123,17 @@ Result<Film> shoot(const World& scene, const Script& script, const gl::Renderer&
         copy.placements = one.placements;
     }
     double up_m = things.placements.front().translation_m.z;
-    world.chains[size_t(&things - scene.chains.data())] = chain_world(*things.chain, standing(*things.chain, up_m, script.stand));
+    world.chains[size_t(&things - scene.chains.data())] = chain_world(*things.chain, standing(*things.chain, up_m, stand));
     world.base.position_m.z = up_m + things.chain->middle_m.z;
     if (Result<void> uploaded = upload(world); !uploaded) return tl::unexpected(uploaded.error());
+    return world;
+}
+
+Result<Film> shoot(World& world, const Script& script, const gl::Renderer& renderer, const std::function<void(double)>& done) {
     Course course;
     for (const Take& take : script.takes) course.specs.push_back(take.run.spec);
     add_floors(course.specs);
-    course.cameras = cameras_of(script.stand, world.base);
+    course.cameras = film_cameras(script.stand, world.base);
     course.step_s = kFilmStep_s;
     course.compared = Compared::steps;
     Result<CourseResult> flown = run_course(world, course, renderer, "", done);
@@ -125,6 +142,27 @@ Result<Film> shoot(const World& scene, const Script& script, const gl::Renderer&
     film.floor = flown->runs[flown->runs[0].floor];
     for (size_t i = 0; i < script.takes.size(); ++i) film.takes.push_back({script.takes[i].name, std::move(flown->runs[i])});
     return film;
+}
+
+Result<ImageRgb8> sequence_of(World& world, const Script& script) {
+    std::vector<view::Camera> cameras = film_cameras(script.stand, world.base);
+    std::vector<std::vector<ImageRgb8>> rows;
+    world.step_s = kFilmStep_s;
+    for (const Take& take : script.takes) {
+        auto samples = uint32_t(setting(take.run.spec, "samples"));
+        Result<gl::Target> target = gl::Target::make(kFilmWidth_px, kFilmHeight_px, samples);
+        if (!target) return tl::unexpected(target.error());
+        std::unique_ptr<Method> method = make_method(take.run.spec, world);
+        rows.emplace_back();
+        for (uint32_t frame = 0; frame < kFilmFrames; ++frame) {
+            world.time_s = frame * kFilmStep_s;
+            method->decide(cameras[frame], frame);
+            method->draw(*target);
+            bool is_shown = std::find(std::begin(kSequenceFrames), std::end(kSequenceFrames), frame) != std::end(kSequenceFrames);
+            if (is_shown) rows.back().push_back(middle_of(target->read()));
+        }
+    }
+    return montage(rows);
 }
 
 Seen seen_of(const Film& film, const Take& take) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/image.h"
 #include "tools/measure/paper/fsi/cast.h"
 #include "tools/measure/run.h"
 
@@ -33,6 +34,15 @@ Stand stand_of(const discrete::Chain& chain, double error_px);
 // nobody sees, as always.
 std::string settings_of(const Stand& stand, const Way& way);
 
+// From where on level 1 does, so that level change + 1 gives way to level change on the arc.
+double first_distance_m(const Stand& stand);
+
+// What is filmed: what stands about in a scene stands on the arc instead, all else as it is; copied, and uploaded. Fails as
+// upload.
+Result<World> film_world(const World& scene, const Stand& stand);
+// A camera a frame, past the arc's middle. base: of film_world.
+std::vector<view::Camera> film_cameras(const Stand& stand, const view::Camera& base);
+
 // A way over the film.
 struct Take {
     std::string name;
@@ -54,9 +64,8 @@ struct Script {
     std::vector<Take> takes;  // without runs but for their specs
 };
 
-// Flies past. scene: what stands about in it stands on the arc instead, all else as it is; copied. Fails as run_course.
-Result<Film> shoot(const World& scene, const Script& script, const gl::Renderer& renderer,
-                   const std::function<void(double)>& done);
+// Flies past. world: of film_world. Fails as run_course.
+Result<Film> shoot(World& world, const Script& script, const gl::Renderer& renderer, const std::function<void(double)>& done);
 
 // What of a change was seen. W is taken over the floor's in the same frame: thousandths of luma.
 struct Seen {
@@ -69,6 +78,10 @@ struct Seen {
     double buffer_bytes = 0;                               // beside what `switch` keeps
 };
 Seen seen_of(const Film& film, const Take& take);
+
+// What the takes show of some frames, side by side: a row a take, a column each of kSequenceFrames, the middle of the picture.
+constexpr uint32_t kSequenceFrames[] = {kBefore - 1, kBefore, kBefore + 2, kBefore + 4, kBefore + 6, kBefore + kFading};
+Result<ImageRgb8> sequence_of(World& world, const Script& script);
 
 // films.csv: a row a take.
 std::string films_csv(const std::vector<Film>& films);

@@ -6,6 +6,8 @@
 
 #include "formats/image.h"
 #include "tools/measure/charts.h"
+#include "tools/measure/paper/fsi/combining.h"
+#include "tools/measure/paper/fsi/drawbacks.h"
 #include "tools/measure/paper/fsi/film.h"
 #include "tools/measure/paper/fsi/sizes.h"
 
@@ -23,7 +25,11 @@ struct Flown {
     std::vector<std::string> scenes;  // names of subjects, in their order
     std::vector<Point> points;        // figure 8
     std::vector<Film> films;          // every way, of each scene and chain
-    std::vector<Picture> pictures;
+    std::vector<Film> varied;         // variations(), of some
+    std::vector<Film> optimised;      // of scenes with a visibility that was optimised: those ways of `films` that use one
+    std::vector<Combining> combining;
+    std::vector<std::pair<std::string, std::vector<Drawback>>> drawbacks;  // by scene
+    std::vector<Picture> pictures, sequences;                              // figures 1 to 7; of each film
 };
 
 // Figures 2 and 8, by gnuplot from the tables: a chart of figure 8 a scene.

@@ -4,6 +4,7 @@
 
 #include "tools/measure/page_text.h"
 #include "tools/measure/paper/fsi/targets.h"
+#include "tools/measure/paper/fsi/variations.h"
 #include "tools/measure/paper/page_parts.h"
 #include "tools/measure/paper/work.h"
 
@@ -88,6 +89,85 @@ std::string films_html(const Flown& flown) {
     return html + "<p class=\"note\"><a href=\"films.csv\">films.csv</a></p>\n";
 }
 
+std::string variations_html(const Flown& flown) {
+    std::string html =
+        "<h2>What each remedy buys, reprojection, 16-bit buffers</h2>\n<p>The same film with one thing changed, beside the "
+        "method as it "
+        "is.</p>\n";
+    for (const Film& film : flown.varied) {
+        html +=
+            fmt::format("<h3>{}</h3>\n", escaped(title_of(film.name))) + kTable +
+            table_row({"", "W entering", "W leaving", "W of the change", "pop index", "frame to frame, %", "what is left out"},
+                      "th") +
+            "</thead>\n<tbody>\n";
+        for (const Variation& one : variations()) {
+            auto take_named = [&](std::string_view name) {
+                return std::find_if(film.takes.begin(), film.takes.end(), [&](const Take& take) { return take.name == name; });
+            };
+            auto take = take_named(one.name), whole = take_named(kWays[one.way].name);
+            Seen seen = seen_of(film, *take);
+            std::string said(one.purpose);
+            if (!one.setting.empty()) said += " " + change_of(seen_of(film, *whole), seen) + ".";
+            html += table_row({with_labels_html(one.name), short_number(seen.entering_w), short_number(seen.leaving_w),
+                               short_number(seen.integrated_w), short_number(seen.pop), short_number(100 * seen.odd_even), ""},
+                              "td", one.setting.empty() ? " class=\"floor\"" : "") +
+                    said_row(escaped(said), 7);
+        }
+        html += kTableEnd;
+    }
+    return html +
+           "<p class=\"note\">Ids of 16 bits begin to collide beyond 2,048 instances, and move-instances is of things that move "
+           "from "
+           "place to place: neither is in these films. <a href=\"variations.csv\">variations.csv</a></p>\n";
+}
+
+std::string optimised_html(const Flown& flown) {
+    std::string html;
+    for (const Film& film : flown.optimised) html += film_html(film);
+    return html.empty() ? html : "<h2>A visibility that was optimised, where outlines do not match</h2>\n" + html;
+}
+
+std::string combining_html(const Flown& flown) {
+    std::string html = "<h2>Putting two frames together</h2>\n" + std::string(kTable) +
+                       table_row({"", "method", "at rest, ms", "while all change, ms", "a pass that copies, ms",
+                                  "a copy in memory, ms", "times the pass"},
+                                 "th") +
+                       "</thead>\n<tbody>\n";
+    for (const Combining& one : flown.combining)
+        html += table_row(
+            {escaped(title_of(one.scene)), escaped(one.method), short_number(one.rest_ms), short_number(one.changing_ms),
+             short_number(one.pass_ms), short_number(one.copy_ms), short_number(one.changing_ms / one.pass_ms)},
+            "td");
+    return html + kTableEnd +
+           "<p class=\"note\">512 x 512, one sample a pixel, medians of 15. The pass that copies reads colour, ids and depth of "
+           "both "
+           "buffers at its own pixel and writes colour and depth. <a href=\"combining.csv\">combining.csv</a></p>\n";
+}
+
+std::string drawbacks_html(const Flown& flown) {
+    std::string html = "<h2>The six drawbacks of blending</h2>\n" + std::string(kTable) +
+                       table_row({"", "counted", "blend", "fsi:paper", "fsi"}, "th") + "</thead>\n<tbody>\n";
+    for (const auto& [scene, drawbacks] : flown.drawbacks)
+        for (const Drawback& one : drawbacks)
+            html += table_row({fmt::format("{}. {}: {}", one.number, title_of(scene), escaped(one.what)), escaped(one.unit),
+                               short_number(one.of_way[0]), short_number(one.of_way[1]), short_number(one.of_way[2])},
+                              "td");
+    return html + kTableEnd +
+           "<p class=\"note\">One thing, a quarter of the way from level 1 to level 0, 256 x 256 pixels, one sample each, the "
+           "eye at "
+           "rest. 6: the coarsest level twice, in other triangles and another colour.</p>\n";
+}
+
+std::string sequences_html(const Flown& flown) {
+    std::string html =
+        "<h2>Side by side</h2>\n<p>A row a method: switch, blend, dither, late, fsi:paper, fsi. A column a frame: the last "
+        "before the "
+        "change, its first, third, fifth and seventh, the first after it.</p>\n";
+    for (const Picture& picture : flown.sequences)
+        html += picture_html(picture.name, picture.caption, picture.image.width, picture.image.height);
+    return html;
+}
+
 std::string pictures_html(const FsiPage& page) {
     std::string html = "<h2>Figures 1 to 7</h2>\n";
     for (const Chart& chart : page.charts)
@@ -108,7 +188,9 @@ std::string fsi_page_html(const FsiPage& page) {
         targets_html(targets_of(page.flown), target_columns(),
                      "Red: missed; the reason is fsi's, from this run's numbers. The worst over films and scenes stands here.");
     return paper_page("Frame-sequential interpolation: section 4 of the paper, run anew",
-                      setup_html(page) + targets + figure_8_html(page) + films_html(page.flown) + pictures_html(page));
+                      setup_html(page) + targets + figure_8_html(page) + films_html(page.flown) + variations_html(page.flown) +
+                          optimised_html(page.flown) + combining_html(page.flown) + drawbacks_html(page.flown) +
+                          pictures_html(page) + sequences_html(page.flown));
 }
 
 }  // namespace overlook::measure::paper::fsi

@@ -140,6 +140,44 @@ Target frame_time(const Flown& flown) {
     return is;
 }
 
+Target combination(const Flown& flown) {
+    Target is{"the combination pass, times a pass that copies the same buffers", "slight overhead", 2, false, {}, "", ""};
+    for (size_t way : kColumns) {
+        Value worst;
+        for (const Combining& one : flown.combining) {
+            if (one.method != kWays[way].name) continue;
+            double ratio = one.changing_ms / one.pass_ms;
+            if (!worst || ratio > *worst) worst = ratio;
+            if (way == kOwn)
+                is.note += fmt::format(" {} {}, at rest {};", title_of(one.scene), short_number(ratio),
+                                       short_number(one.rest_ms / one.pass_ms));
+        }
+        is.measured.push_back(worst);
+    }
+    if (!is.is_reached(1))
+        is.why =
+            "where things change the other buffer is searched, up to eight steps for each instance whose box a pixel lies in; in "
+            "software every step costs a pixel's copy";
+    return is;
+}
+
+Target optimised(const Flown& flown) {
+    Target is{"W of a change with an optimised visibility, less than with white noise, %", "-", 30, true, {}, "", ""};
+    for (size_t way : kColumns) {
+        Value least;
+        for (const Film& film : flown.optimised)
+            for (const Film& noise : flown.films) {
+                const Take *own = take_of(film, way), *other = take_of(noise, way);
+                if (noise.name != film.name || !noise.chain.empty() || own == nullptr || other == nullptr) continue;
+                double saved = 100 * (1 - seen_of(film, *own).integrated_w / seen_of(noise, *other).integrated_w);
+                if (!least || saved < *least) least = saved;
+            }
+        is.measured.push_back(least);
+    }
+    if (is.measured[1] && !is.is_reached(1)) is.why = "the colours change as well as the outline, which no visibility helps";
+    return is;
+}
+
 }  // namespace
 
 std::vector<std::string> target_columns() {
@@ -147,7 +185,8 @@ std::vector<std::string> target_columns() {
 }
 
 std::vector<Target> targets_of(const Flown& flown) {
-    return {pop(flown), median_w(flown), triangles(flown), film_triangles(flown), odd_even(flown), frame_time(flown)};
+    return {pop(flown),      median_w(flown),    triangles(flown), film_triangles(flown),
+            odd_even(flown), combination(flown), optimised(flown), frame_time(flown)};
 }
 
 }  // namespace overlook::measure::paper::fsi

@@ -5,6 +5,7 @@
 
 #include "formats/atomic_file.h"
 #include "runtime/gl/png.h"
+#include "tools/measure/paper/fsi/fly.h"
 #include "tools/measure/paper/fsi/page.h"
 #include "tools/measure/paper/fsi/targets.h"
 #include "tools/measure/paper/work.h"
@@ -12,66 +13,13 @@
 namespace overlook::measure::paper::fsi {
 namespace {
 
-// How far off the coarser level of a film is, in its pixels: SIMPLE's levels differ by their whole size.
-double film_error_px(const std::string& name) {
-    return name == "simple" ? 8 : 2;
-}
-
-Script script_of(const Subject& subject, const std::string& chain, const World& world) {
-    Script script{subject.name, chain, stand_of(*things_of(world).chain, film_error_px(subject.name)), {}};
-    for (const Way& way : kWays) {
-        Take take{std::string(way.name), {}};
-        take.run.spec = spec_of(way, settings_of(script.stand, way));
-        script.takes.push_back(std::move(take));
-    }
-    return script;
-}
-
-Result<void> shoot_all(std::vector<Subject>& subjects, const gl::Renderer& renderer, Flown& flown,
-                       const std::function<void(double)>& done) {
-    struct Job {
-        const Subject* subject;
-        std::string chain;
-        const World* world;
-    };
-    std::vector<Job> jobs;
-    for (const Subject& subject : subjects) {
-        jobs.push_back({&subject, "", &subject.world});
-        if (subject.by_hand) jobs.push_back({&subject, "by hand", &*subject.by_hand});
-    }
-    for (size_t i = 0; i < jobs.size(); ++i) {
-        const Job& job = jobs[i];
-        Result<Film> film = shoot(*job.world, script_of(*job.subject, job.chain, *job.world), renderer,
-                                  [&](double share) { done((double(i) + share) / double(jobs.size())); });
-        if (!film) return tl::unexpected(film.error());
-        flown.films.push_back(std::move(*film));
-    }
-    return {};
-}
-
-Result<Flown> fly_all(std::vector<Subject>& subjects, const PaperOptions& options, const gl::Renderer& renderer,
-                      const command::Common& common) {
-    Flown flown;
-    flown.frames = options.frames;
-    command::Progress progress(common, "flying");
-    {
-        Part part(progress, common, "viewport sizes", 0, 0.5);
-        for (size_t i = 0; i < subjects.size(); ++i) {
-            flown.scenes.push_back(subjects[i].name);
-            auto share_done = [&, done = part.done()](double share) { done((double(i) + share) / double(subjects.size())); };
-            Result<std::vector<Point>> points = fly_sizes(subjects[i], renderer, options.frames, share_done);
-            if (!points) return tl::unexpected(points.error());
-            flown.points.insert(flown.points.end(), points->begin(), points->end());
-        }
-    }
-    Part part(progress, common, "films", 0.5, 1);
-    if (Result<void> shot = shoot_all(subjects, renderer, flown, part.done()); !shot) return tl::unexpected(shot.error());
-    return flown;
-}
-
 Result<void> write_tables(const Flown& flown, const std::string& out) {
-    const std::pair<const char*, std::string> tables[] = {
-        {"sizes.csv", sizes_csv(flown.points)}, {"films.csv", films_csv(flown.films)}, {"ramps.csv", ramps_csv()}};
+    const std::pair<const char*, std::string> tables[] = {{"sizes.csv", sizes_csv(flown.points)},
+                                                          {"films.csv", films_csv(flown.films)},
+                                                          {"variations.csv", films_csv(flown.varied)},
+                                                          {"optimised.csv", films_csv(flown.optimised)},
+                                                          {"combining.csv", combining_csv(flown.combining)},
+                                                          {"ramps.csv", ramps_csv()}};
     for (const auto& [name, text] : tables) {
         if (Result<void> written = write_file(out + "/" + name, std::string_view(text)); !written) return written;
     }
@@ -80,10 +28,11 @@ Result<void> write_tables(const Flown& flown, const std::string& out) {
 
 Result<void> deliver(const Flown& flown, const RunSetup& setup, const std::string& out, const command::Common& common) {
     if (Result<void> written = write_tables(flown, out); !written) return written;
-    for (const Picture& picture : flown.pictures) {
-        Result<void> written = write_png(out + "/images/" + picture.name + ".png", picture.image);
-        if (!written) return written;
-    }
+    for (const std::vector<Picture>* pictures : {&flown.pictures, &flown.sequences})
+        for (const Picture& picture : *pictures) {
+            Result<void> written = write_png(out + "/images/" + picture.name + ".png", picture.image);
+            if (!written) return written;
+        }
     std::vector<Chart> charts = charts_of(flown);
     Result<bool> drawn = draw_charts(charts, out);
     if (!drawn) return tl::unexpected(drawn.error());
@@ -141,7 +90,7 @@ Result<void> run_paper(const PaperOptions& options, const std::vector<std::strin
     for (Subject& subject : subjects) {
         if (Result<void> uploaded = upload(subject); !uploaded) return uploaded;
     }
-    Result<Flown> flown = fly_all(subjects, options, context->renderer(), common);
+    Result<Flown> flown = fly_all(subjects, options.frames, context->renderer(), common);
     if (!flown) return tl::unexpected(flown.error());
     if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
     RunSetup setup = setup_here(context->renderer(), kAsked_px, kAsked_px, words);
