@@ -23,10 +23,19 @@ std::string name_of(const Words& verb) {
     return verb.size() == 1 ? verb[0] : verb[0] + " " + verb[1];
 }
 
-const std::vector<Words> kVerbs = {
-    {"bake-lod", "terrain"}, {"baked", "info"},        {"baked", "verify"},           {"baked", "diff"},
-    {"baked", "export"},     {"make-sample", "dem"},   {"make-sample", "lod-sprite"}, {"make-sample", "slopes"},
-    {"make-sample", "vase"}, {"make-sample", "masts"}, {"reproduce", "lod-sprite"},   {"player"}};
+const std::vector<Words> kVerbs = {{"bake-lod", "terrain"},
+                                   {"baked", "info"},
+                                   {"baked", "verify"},
+                                   {"baked", "diff"},
+                                   {"baked", "export"},
+                                   {"make-sample", "dem"},
+                                   {"make-sample", "lod-sprite"},
+                                   {"make-sample", "slopes"},
+                                   {"make-sample", "vase"},
+                                   {"make-sample", "masts"},
+                                   {"reproduce", "lod-sprite"},
+                                   {"reproduce", "fsi"},
+                                   {"player"}};
 const std::vector<Words> kCommands = {{"bake-lod"}, {"baked"},     {"make-sample"}, {"measure"},
                                       {"player"},   {"reproduce"}, {"stability"}};
 

@@ -1,5 +1,7 @@
-// What `cmake --install` puts down serves a project outside: samples/read_terrain.
+// What `cmake --install` puts down serves projects outside: samples/read_terrain and samples/blend_levels.
 #include <gtest/gtest.h>
+
+#include <cstdio>
 
 #include "tests/pipelines/shell.h"
 
@@ -44,6 +46,29 @@ TEST(Installed, OutsideProjectFindsItAndReadsABakedTerrain) {
 
     auto refused = shell::run("build/read_terrain sample/dem.tif 0", scratch.path());
     EXPECT_EQ(refused.exit, 3) << refused.output;
+}
+
+// Of a square of 48 x 48 pixels the middle 32 x 32 are of both levels where the visibility lets half of the narrow one be seen.
+TEST(Installed, OutsideProjectBlendsLevelsWithTheTwoShaderRoutines) {
+    shell::Scratch scratch;
+    auto installed = shell::run("cmake --install '" OVERLOOK_BINARY_DIR "' --prefix prefix", scratch.path());
+    ASSERT_EQ(installed.exit, 0) << installed.output;
+    auto built = shell::run("cp -r '" OVERLOOK_SOURCE_DIR
+                            "/samples/blend_levels' program\n"
+                            "cmake -S program -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" "
+                            "-DCMAKE_CXX_COMPILER='" OVERLOOK_COMPILER "' -DCMAKE_CXX_FLAGS='" OVERLOOK_SANITIZE_FLAGS
+                            "'\n"
+                            "cmake --build build",
+                            scratch.path());
+    ASSERT_EQ(built.exit, 0) << built.output;
+    auto ran = shell::run("build/blend_levels", scratch.path());
+    ASSERT_EQ(ran.exit, 0) << ran.output;
+    int wide = 0, narrow = -1, both = 0;
+    ASSERT_EQ(std::sscanf(ran.output.c_str(), "the wide level: %d\nthe narrow level: %d\nboth: %d", &wide, &narrow, &both), 3)
+        << ran.output;
+    EXPECT_EQ(wide + both, 48 * 48) << "no pixel of the whole level is lost";
+    EXPECT_EQ(narrow, 0) << "nothing of the narrow level is in front of the wide one";
+    EXPECT_NEAR(both, 32 * 32 / 2, 64);
 }
 
 }  // namespace

@@ -243,6 +243,7 @@ void take_pop_indices(Field& field) {
     for (size_t i = 0; i < field.runs.size(); ++i) {
         field.results[i].pop = pop_index(field.runs[i].temporal, field.runs[field.results[i].floor].temporal);
     }
+    for (size_t i = 0; i < field.runs.size(); ++i) field.results[i].temporal = std::move(field.runs[i].temporal);
 }
 
 }  // namespace

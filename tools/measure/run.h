@@ -74,6 +74,7 @@ struct RunResult {
     size_t floor = 0;  // which run is its floor: full geometry at the same samples a pixel; itself where nothing is compared
     std::vector<FrameRecord> frames;
     PopIndex pop;
+    std::vector<TemporalError> temporal;  // W of every frame that has one, by tiles
     HonestyTally g;  // over all frames on which it was taken
     WorstFrame worst_e, worst_w;
 };

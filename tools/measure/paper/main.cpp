@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/measure/paper/caveclod/verb.h"
+#include "tools/measure/paper/fsi/verb.h"
 #include "tools/measure/paper/lod_sprite/verb.h"
 
 int main(int argc, char** argv) {
@@ -13,14 +14,17 @@ int main(int argc, char** argv) {
     command::Common common;
     paper::sprite::PaperOptions sprite_options;
     paper::cameras::PaperOptions cameras_options;
+    paper::fsi::PaperOptions fsi_options;
     CLI::App* sprite = paper::sprite::add_verb(app, sprite_options);
     CLI::App* cameras = paper::cameras::add_verb(app, cameras_options);
-    for (CLI::App* verb : {sprite, cameras}) command::add_common(*verb, common);
+    CLI::App* fsi = paper::fsi::add_verb(app, fsi_options);
+    for (CLI::App* verb : {sprite, cameras, fsi}) command::add_common(*verb, common);
     return command::run(app, common, argc, argv, [&] {
         std::vector<std::string> words(argv, argv + argc);
         words[0] = "reproduce";
-        Result<void> done = sprite->parsed() ? paper::sprite::run_paper(sprite_options, words, common)
-                                             : paper::cameras::run_paper(cameras_options, words, common);
+        Result<void> done = sprite->parsed()    ? paper::sprite::run_paper(sprite_options, words, common)
+                            : cameras->parsed() ? paper::cameras::run_paper(cameras_options, words, common)
+                                                : paper::fsi::run_paper(fsi_options, words, common);
         return done ? int(Exit::done) : command::fail("reproduce " + words[1], done.error());
     });
 }

@@ -1,0 +1,112 @@
+#include "tools/measure/paper/fsi/sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "tools/measure/figures.h"
+
+namespace overlook::measure::paper::fsi {
+namespace {
+
+constexpr double kLateError_px = 0.25;  // what nobody sees, at any size
+
+double mean_of(const RunResult& run, std::string_view name) {
+    std::vector<double> values = values_of(run, figure(name));
+    double sum = 0;
+    for (double value : values) sum += value;
+    return values.empty() ? 0 : sum / double(values.size());
+}
+
+double odd_even_of(const RunResult& run) {
+    double sum = 0;
+    for (size_t i = 1; i < run.frames.size(); ++i) {
+        double before = double(run.frames[i - 1].counters.triangle_count), now = double(run.frames[i].counters.triangle_count);
+        sum += std::abs(now - before) / std::max({before, now, 1.0});
+    }
+    return run.frames.size() < 2 ? 0 : sum / double(run.frames.size() - 1);
+}
+
+Point point_of(const RunResult& run) {
+    Point point;
+    point.frames = uint32_t(run.frames.size());
+    Percentiles ms = percentiles_of(run, "frame_ms");
+    point.p50_ms = ms.p50, point.max_ms = ms.max, point.decide_p50_ms = percentiles_of(run, "decide_ms").p50;
+    point.triangles = mean_of(run, "triangles"), point.draw_calls = mean_of(run, "draw_calls");
+    point.fading = mean_of(run, "transitions");
+    point.odd_even = odd_even_of(run);
+    for (const FrameRecord& frame : run.frames) {
+        point.resident_bytes = std::max(point.resident_bytes, frame.counters.resident_bytes);
+        point.state_bytes = std::max(point.state_bytes, frame.counters.camera_bytes);
+    }
+    return point;
+}
+
+}  // namespace
+
+Asked asked_of(const std::string& name) {
+    if (name == "simple") return {8, 1};
+    if (name == "trees") return {8, 4};
+    return {};
+}
+
+std::string settings_at(const Asked& asked, uint32_t side_px, const Way& way) {
+    double error_px = (way.name == kWays[kLate].name ? kLateError_px : 1.0) * asked.error_px * side_px / kAsked_px;
+    return fmt::format("@error-px={}@samples=1", error_px);
+}
+
+Result<std::vector<Point>> fly_sizes(Subject& subject, const gl::Renderer& renderer, uint32_t frames,
+                                     const std::function<void(double)>& done) {
+    struct Part {
+        std::string chain;
+        World* world;
+        std::vector<Way> ways;
+    };
+    std::vector<Part> parts = {{"", &subject.world, {kWays.begin(), kWays.end()}}};
+    if (subject.by_hand) parts.push_back({"by hand", &*subject.by_hand, {kWays[kSwitch], kWays[kPaper]}});
+    Asked asked = asked_of(subject.name);
+    uint32_t count = std::max(2u, frames / asked.frames_share);
+    std::vector<Point> points;
+    double runs = double(parts.size() * std::size(kSides_px)), flown = 0;
+    for (const Part& part : parts)
+        for (uint32_t side_px : kSides_px) {
+            Course course;
+            for (const Way& way : part.ways) course.specs.push_back(spec_of(way, settings_at(asked, side_px, way)));
+            course.cameras = cameras_of(subject, count + 1, side_px, side_px);
+            course.lead = {course.cameras.front()};  // changes begin after it
+            course.cameras.erase(course.cameras.begin());
+            course.step_s = subject.flight.step_s;
+            course.compared = Compared::none;
+            Result<CourseResult> result =
+                run_course(*part.world, course, renderer, "", [&](double share) { done((flown + share) / runs); });
+            if (!result) return tl::unexpected(result.error());
+            flown += 1;
+            for (size_t i = 0; i < part.ways.size(); ++i) {
+                Point point = point_of(result->runs[i]);
+                point.scene = subject.name, point.chain = part.chain, point.method = part.ways[i].name, point.side_px = side_px;
+                points.push_back(std::move(point));
+            }
+        }
+    return points;
+}
+
+const Point* find(const std::vector<Point>& points, const std::string& scene, const std::string& chain, std::string_view method,
+                  uint32_t side_px) {
+    auto found = std::find_if(points.begin(), points.end(), [&](const Point& one) {
+        return one.scene == scene && one.chain == chain && one.method == method && one.side_px == side_px;
+    });
+    return found == points.end() ? nullptr : &*found;
+}
+
+std::string sizes_csv(const std::vector<Point>& points) {
+    std::string csv =
+        "scene,chain,method,side_px,frames,frame_ms_p50,frame_ms_max,decide_ms_p50,triangles,draw_calls,fading,"
+        "odd_even_share,resident_bytes,state_bytes\n";
+    for (const Point& p : points)
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.scene, p.chain, p.method, p.side_px, p.frames,
+                           p.p50_ms, p.max_ms, p.decide_p50_ms, p.triangles, p.draw_calls, p.fading, p.odd_even, p.resident_bytes,
+                           p.state_bytes);
+    return csv;
+}
+
+}  // namespace overlook::measure::paper::fsi
