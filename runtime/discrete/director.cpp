@@ -56,6 +56,8 @@ void Director::begin(State& state, const Placement& placement, const Selector& s
     bool is_own = options_.variant == Variant::fsi;
     state.is_odd = is_own && options_.remedies.splits_parities && balance_ > 0;
     balance_ += (state.is_odd ? -1 : 1) * difference(state.transition);
+    // Nothing is seen of a change before the new level is drawn.
+    if (is_own && drawn_level(state) == state.transition.from) state.transition.phase = 0;
     state.grain_doublings = 0;
     uint32_t change = finer(state.transition);
     if (!is_own || !options_.remedies.suits_grain || change >= grain_m_.size() || grain_m_[change] <= 0) return;
@@ -131,7 +133,12 @@ void Director::sort_items() {
 }
 
 void Director::decide(const view::Camera& camera, double dt_s) {
-    Selector selector(facts_, options_.select, camera);
+    // A change that begins with the next frame ends a frame later.
+    double horizon_s = options_.fade_s + 2 * dt_s;
+    view::Camera later = foresight_.ahead(camera, dt_s, options_.fade_s, horizon_s);
+    Selector ahead(facts_, options_.select, later);
+    bool foresees = fades(options_.variant) && options_.foresees;
+    Selector selector(facts_, options_.select, camera, foresees ? &ahead : nullptr);
     frame_ = {};
     ++frame_count_;
     balance_ = 0;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/discrete/foresight.h"
 #include "runtime/discrete/select.h"
 #include "runtime/discrete/settings.h"
 #include "runtime/discrete/transition.h"
@@ -95,6 +96,7 @@ class Director {
     std::vector<State> states_;
     std::vector<double> grain_m_;
     FrameList frame_;
+    Foresight foresight_;
     uint64_t frame_count_ = 0;
     int64_t balance_ = 0;  // triangles that even frames draw more than odd ones
 };

@@ -57,7 +57,8 @@ void main() {
 }
 )";
 
-// KEEPS_HIDDEN, SEARCHES, WEIGHS_BY_PHASE, HAS_WIDE_IDS, HAS_WIDE_DEPTH: the remedies. KMOST, TILE_PX: reprojection.h's Tiles.
+// KEEPS_HIDDEN, SEARCHES, WEIGHS_BY_PHASE, HAS_LONG_RAMPS, HAS_WIDE_IDS, HAS_WIDE_DEPTH: the remedies. KMOST, TILE_PX:
+// reprojection.h's Tiles.
 inline constexpr char kCombinationInputs[] = R"(
 layout(binding = 0) uniform Picture new_colour;
 layout(binding = 1) uniform Numbers new_ids;
@@ -114,13 +115,25 @@ Seen older_at(ivec2 at) {
 )";
 
 inline constexpr char kCombinationParts[] = R"(
+// The orders of appearance before which places are there, and those up to `softness` before it are on their way: such that over
+// evenly spread orders the mean that is there is `share`, which changes as evenly as time goes.
+float front_of(float share) {
+    float edge = min(softness, 1.0), edge_share = edge * edge / (2.0 * softness);
+    if (share < edge_share) return sqrt(2.0 * softness * share);
+    if (share > 1.0 - edge_share) return 1.0 + softness - sqrt(2.0 * softness * (1.0 - share));
+    return edge + (share - edge_share) * softness / edge;
+}
 // How much of what is seen of an instance under way is there, 0..1.
 float presence(Moved one, Seen seen) {
 #if KEEPS_HIDDEN
+#if HAS_LONG_RAMPS
+    float share = seen.level == one.to ? one.phase : 1.0 - one.phase;
+#else
     float share = seen.level == one.to ? min(2.0 * one.phase, 1.0) : min(2.0 - 2.0 * one.phase, 1.0);
+#endif
     if (share >= 1.0) return 1.0;
     if (softness <= 0.0) return seen.appears <= share ? 1.0 : 0.0;
-    return clamp((share * (1.0 + softness) - seen.appears) / softness, 0.0, 1.0);
+    return clamp((front_of(share) - seen.appears) / softness, 0.0, 1.0);
 #else
     return 1.0;
 #endif

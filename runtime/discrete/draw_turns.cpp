@@ -97,6 +97,7 @@ Result<gl::Program> Turns::combine_program(uint32_t samples) const {
     std::string text = "#version 450 core\n" + define("SAMPLES", int(samples)) + define("KMOST", int(Tiles::kMost)) +
                        define("TILE_PX", int(Tiles::kSide_px)) + define("KEEPS_HIDDEN", remedies.keeps_hidden) +
                        define("SEARCHES", remedies.searches) + define("WEIGHS_BY_PHASE", remedies.weighs_by_phase) +
+                       define("HAS_LONG_RAMPS", remedies.has_long_ramps && remedies.weighs_by_phase) +
                        define("HAS_WIDE_IDS", remedies.has_wide_ids) + define("HAS_WIDE_DEPTH", remedies.has_wide_depth) +
                        shaders::kBuffers;
     if (options_.variant == Variant::fsi_paper)

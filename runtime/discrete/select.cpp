@@ -50,8 +50,9 @@ std::vector<Placement> placements_of(std::span<const scene::Transform> instances
     return placements;
 }
 
-Selector::Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera)
+Selector::Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera, const Selector* ahead)
     : facts_(facts),
+      ahead_(ahead),
       settings_(settings),
       camera_(camera),
       axes_(view::axes_of(camera)),
@@ -81,47 +82,58 @@ double Selector::pixel_m(const Placement& placement) const {
     return std::max(glm::dot(axes_.forward, from_eye_m), camera_.near_m) / focal_px_;
 }
 
-double Selector::strain(const Placement& placement, uint32_t level) const {
-    if (level == 0) return 0;
+Selector::Sight Selector::sight_of(const Placement& placement) const {
     glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
-    double radius_m = facts_.radius_m * placement.scale, doublings = std::exp2(double(level) - 1);
-    double distance_m = glm::length(from_eye_m);
-    switch (settings_.criterion) {
-        case Criterion::distance:
-            return settings_.distance_m * doublings / std::max(distance_m, 1e-12);
-        case Criterion::size:
-            return 2 * radius_m * focal_px_ / std::max(distance_m, 1e-12) * doublings / settings_.size_px;
-        case Criterion::error:
-        case Criterion::importance:
-            break;
+    Sight sight;
+    sight.scale = placement.scale, sight.radius_m = facts_.radius_m * placement.scale;
+    if (settings_.criterion == Criterion::distance || settings_.criterion == Criterion::size) {
+        double distance_m = std::max(glm::length(from_eye_m), 1e-12);
+        bool is_by_distance = settings_.criterion == Criterion::distance;
+        sight.share =
+            is_by_distance ? settings_.distance_m / distance_m : 2 * sight.radius_m * focal_px_ / distance_m / settings_.size_px;
+        return sight;
     }
-    const LevelFacts& facts = facts_.levels[level];
-    double error_m = std::max(facts.error_m, settings_.area_weight * facts.area_error_m) * placement.scale;
-    view::SphereErrorBound::Place place = bound_.place_of(from_eye_m);
-    double share = 1;
+    sight.place = bound_.place_of(from_eye_m);
+    sight.allowed_px = settings_.error_px;
     if (settings_.criterion == Criterion::importance) {
         // By what of it is nearest to the frame's middle.
-        double side_m = std::max(std::hypot(place.right, place.up) - radius_m, 0.0);
-        double tangent = side_m / std::max(place.forward + radius_m, camera_.near_m);
-        share += settings_.periphery * std::min(tangent / corner_tangent_, 1.0);
+        double side_m = std::max(std::hypot(sight.place.right, sight.place.up) - sight.radius_m, 0.0);
+        double tangent = side_m / std::max(sight.place.forward + sight.radius_m, camera_.near_m);
+        sight.allowed_px *= 1 + settings_.periphery * std::min(tangent / corner_tangent_, 1.0);
     }
-    return bound_(place, radius_m, error_m) / (settings_.error_px * share);
+    return sight;
+}
+
+double Selector::strain(const Sight& sight, uint32_t level) const {
+    if (level == 0) return 0;
+    if (settings_.criterion == Criterion::distance || settings_.criterion == Criterion::size)
+        return std::ldexp(sight.share, int(level) - 1);
+    const LevelFacts& facts = facts_.levels[level];
+    double error_m = std::max(facts.error_m, settings_.area_weight * facts.area_error_m) * sight.scale;
+    return bound_(sight.place, sight.radius_m, error_m) / sight.allowed_px;
+}
+
+uint32_t Selector::coarsest(const Placement& placement, uint32_t least, double most_now, double most_ahead) const {
+    uint32_t level = uint32_t(facts_.levels.size()) - 1;
+    if (level <= least) return least;
+    Sight now = sight_of(placement);
+    while (level > least && !(strain(now, level) <= most_now)) --level;
+    if (level <= least || ahead_ == nullptr) return level;
+    Sight then = ahead_->sight_of(placement);
+    while (level > least && !(ahead_->strain(then, level) <= most_ahead)) --level;
+    return level;
 }
 
 uint32_t Selector::wanted(const Placement& placement) const {
-    for (uint32_t level = uint32_t(facts_.levels.size()) - 1; level > 0; --level) {
-        if (strain(placement, level) <= settings_.refine_share) return level;
-    }
-    return 0;
+    return coarsest(placement, 0, settings_.refine_share, settings_.refine_share);
 }
 
 uint32_t Selector::wanted(const Placement& placement, uint32_t level) const {
-    if (strain(placement, level) > settings_.refine_share) return wanted(placement);
-    double most = settings_.refine_share * settings_.coarsen_share;
-    for (uint32_t coarser = uint32_t(facts_.levels.size()) - 1; coarser > level; --coarser) {
-        if (strain(placement, coarser) <= most) return coarser;
-    }
-    return level;
+    bool is_too_coarse = strain(placement, level) > settings_.refine_share ||
+                         (ahead_ != nullptr && ahead_->strain(placement, level) > settings_.refine_share);
+    if (is_too_coarse) return wanted(placement);
+    double coarsen = settings_.refine_share * settings_.coarsen_share;
+    return coarsest(placement, level, ahead_ != nullptr ? settings_.refine_share : coarsen, coarsen);
 }
 
 }  // namespace overlook::discrete

@@ -54,13 +54,16 @@ std::vector<Placement> placements_of(std::span<const scene::Transform> instances
 // Strains of levels, and who is in the frame, of one camera.
 class Selector {
   public:
-    Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera);
+    // ahead: of the camera as it will be; what is wanted then is wanted now already. Null: nothing is known. Must outlive it.
+    Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera,
+             const Selector* ahead = nullptr);
 
     // False only if nothing of it can be in the picture.
     bool is_in_view(const Placement& placement) const;
-    // Over 1: too coarse. 0 of level 0.
-    double strain(const Placement& placement, uint32_t level) const;
-    // The level that an instance wants which has `level`: the coarsest whose strain allows it, with hysteresis.
+    // Over 1: too coarse now. 0 of level 0.
+    double strain(const Placement& placement, uint32_t level) const { return strain(sight_of(placement), level); }
+    // The level that an instance wants which has `level`: the coarsest whose strain, now and ahead, allows it; with hysteresis,
+    // which is ahead where that is known.
     uint32_t wanted(const Placement& placement, uint32_t level) const;
     // The same without a level in use: the coarsest whose strain is at most refine_share.
     uint32_t wanted(const Placement& placement) const;
@@ -70,7 +73,20 @@ class Selector {
     double pixel_m(const Placement& placement) const;
 
   private:
+    // What all levels' strains of one instance have in common.
+    struct Sight {
+        double scale = 1, radius_m = 0;
+        double share = 0;                     // of the criteria that know no error: level 1's strain
+        view::SphereErrorBound::Place place;  // of the others
+        double allowed_px = 1;
+    };
+    Sight sight_of(const Placement& placement) const;
+    double strain(const Sight& sight, uint32_t level) const;
+    // The coarsest of levels over `least` whose strains are at most so much; `least` if none is.
+    uint32_t coarsest(const Placement& placement, uint32_t least, double most_now, double most_ahead) const;
+
     const ChainFacts& facts_;
+    const Selector* ahead_;
     SelectSettings settings_;
     view::Camera camera_;
     view::Axes axes_;

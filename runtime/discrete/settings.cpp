@@ -9,8 +9,6 @@ namespace overlook::discrete {
 namespace {
 
 constexpr double kImperceptible_px = 0.25;
-// Where a change takes its time it begins before the level in use is too coarse.
-constexpr double kRefineEarly = 0.85;
 
 constexpr std::array<std::string_view, 4> kCriteria = {"error", "size", "distance", "importance"};
 
@@ -69,6 +67,7 @@ const std::vector<KnownSetting>& known_settings() {
         OVERLOOK_NUMBER(Whose::all, "refine-share", 0.1, 1, select.refine_share),
         OVERLOOK_NUMBER(Whose::all, "coarsen-share", 0.1, 0.99, select.coarsen_share),
         OVERLOOK_NUMBER(Whose::fading, "fade-s", 0.001, 60, fade_s),
+        OVERLOOK_FLAG(Whose::fading, "foresee", foresees),
         OVERLOOK_FLAG(Whose::fading, "one-by-one", is_one_by_one),
         OVERLOOK_FLAG(Whose::turns, "reproject", reprojects),
         OVERLOOK_FLAG(Whose::paper, "half-precision", is_half_precise),
@@ -76,6 +75,7 @@ const std::vector<KnownSetting>& known_settings() {
         OVERLOOK_FLAG(Whose::fsi, "wide-ids", remedies.has_wide_ids),
         OVERLOOK_FLAG(Whose::fsi, "wide-depth", remedies.has_wide_depth),
         OVERLOOK_FLAG(Whose::fsi, "weigh-by-phase", remedies.weighs_by_phase),
+        OVERLOOK_FLAG(Whose::fsi, "long-ramps", remedies.has_long_ramps),
         OVERLOOK_FLAG(Whose::fsi, "split-parities", remedies.splits_parities),
         OVERLOOK_FLAG(Whose::fsi, "move-instances", remedies.moves_instances),
         OVERLOOK_FLAG(Whose::fsi, "search", remedies.searches),
@@ -105,7 +105,6 @@ FrameOptions defaults_of(Variant variant) {
     FrameOptions options;
     options.variant = variant;
     if (variant == Variant::late) options.select.error_px = kImperceptible_px;
-    if (fades(variant)) options.select.refine_share = kRefineEarly;
     if (variant == Variant::fsi_paper) options.is_one_by_one = true;
     return options;
 }

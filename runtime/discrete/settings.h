@@ -55,8 +55,11 @@ struct Remedies {
     bool splits_parities = true;  // half of the instances, by triangles, draw their finer level in even frames
     bool moves_instances = true;  // looks instances up where they were themselves; else by the camera alone
     bool searches = true;         // what covers a pixel in the older buffer is found wherever it was there
-    bool suits_grain = true;      // the visibility's grain is a pixel at least, as far as the instance is
-    double softness = 0.5;        // >= 0; share of the ramp in which one place appears; 0: at once
+    // Each level's ramp lasts as long as the change: where both are seen they are mixed, so none need be whole. With keeps_hidden
+    // and weighs_by_phase only.
+    bool has_long_ramps = true;
+    bool suits_grain = true;  // the visibility's grain is a pixel at least, as far as the instance is
+    double softness = 0.5;    // >= 0; share of the ramp in which one place appears; 0: at once
 
     bool operator==(const Remedies&) const = default;
 };
@@ -65,6 +68,7 @@ struct FrameOptions {
     Variant variant = Variant::fsi;
     SelectSettings select;
     double fade_s = 0.25;          // > 0; how long a change of level takes
+    bool foresees = true;          // of those that take time: changes begin so early that they are over when they are due
     bool is_one_by_one = false;    // levels between are shown on the way; else skipped
     bool reprojects = true;        // looks the older buffer up where things were; of both FSI variants
     bool is_half_precise = false;  // of Variant::fsi_paper: ids and depth are 16-bit floats, as the authors had them
