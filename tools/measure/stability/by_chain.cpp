@@ -1,5 +1,6 @@
 // The case of levels that do not match, or match too well.
 #include <algorithm>
+#include <limits>
 
 #include "tools/measure/stability/stage.h"
 
@@ -73,7 +74,8 @@ class Held {
 
 struct Flicker {
     double in_transition = 0, at_rest = 0;
-    uint32_t begins = 0, most_under_way = 0;
+    std::optional<uint32_t> begins;  // the frame in which a level changes first
+    uint32_t most_under_way = 0;
     std::optional<Shot> worst;
 };
 
@@ -120,12 +122,17 @@ Result<std::vector<Finding>> run_mismatched(Stage& stage, const Case& each, cons
         Result<Flicker> flicker = flicker_of(stage, specs[i], cameras);
         if (!flicker) return tl::unexpected(flicker.error());
         Finding& finding = (*findings)[i];
+        if (!flicker->begins) {
+            finding.figures["still_flicker"] = finding.figures["pop_index"] = std::numeric_limits<double>::infinity();
+            finding.sentence += " No level changes on this flight, so that nothing is shown of how.";
+            continue;
+        }
         finding.figures["still_flicker"] = std::max(flicker->in_transition, flicker->at_rest);
         finding.sentence += fmt::format(
             " Levels change at {} times the error asked, so that their silhouettes are seen to differ. A level changes first in "
             "frame {}; with the clock stopped and {} changes under way {:.4f} % of a still camera's "
             "pixels differ from frame to frame, once all are over {:.4f} %.",
-            kNearer, flicker->begins, flicker->most_under_way, 100 * flicker->in_transition, 100 * flicker->at_rest);
+            kNearer, *flicker->begins, flicker->most_under_way, 100 * flicker->in_transition, 100 * flicker->at_rest);
         if (finding.figures["still_flicker"] > 0) finding.worst = std::move(flicker->worst);
     }
     return findings;
