@@ -37,7 +37,8 @@ class Measure : public testing::Test {
 };
 
 TEST_F(Measure, RefusesAMethodItDoesNotKnow) {
-    expect_refused(words({"--method", "terain"}), 2, {"--method terain", "did you mean terrain?", "known: terrain, lod-sprite, caveclod, discrete, full"});
+    expect_refused(words({"--method", "terain"}), 2,
+                   {"--method terain", "did you mean terrain?", "known: terrain, lod-sprite, caveclod, discrete, full"});
     expect_refused(words({"--method", "terrain@error=2"}), 2, {"terrain has no setting error"});
     expect_refused(words({"--method", "terrain", "--sweep", "speed=1,2"}), 2, {"--sweep speed=1,2"});
     expect_refused(words({}), 2, {"--method"});
@@ -68,9 +69,9 @@ TEST_F(Measure, RefusesABadScene) {
     expect_refused(with_scene(folder_ / "sample/dem.tif"), 3, {"dem.tif"});
     write_text(bad, R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "terrain"}]})");
     expect_refused(with_scene(bad), 3, {"a.ovl", "No such file"});
-    write_text(bad, R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "terrain"},
-                                                 {"asset": "a.ovl", "method": "terrain"}]})");
-    expect_refused(with_scene(bad), 5, {bad, "has 2 layers", "one terrain, mesh or chain of levels"});
+    std::string layer = R"({"asset": ")" + baked_.substr(baked_.rfind('/') + 1) + R"(", "method": "terrain"})";
+    write_text(bad, R"({"version": 1, "layers": [)" + layer + ", " + layer + "]}");
+    expect_refused(with_scene(bad), 5, {bad, "there are 2 layers", "one terrain, one mesh or chains of levels"});
 }
 
 TEST_F(Measure, RefusesABadFlight) {

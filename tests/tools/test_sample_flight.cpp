@@ -20,6 +20,11 @@ std::string file_text(const std::string& name) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// Of the stability suite's chains of levels, which stand on nothing.
+bool is_of_chains(const std::filesystem::directory_entry& entry) {
+    return entry.path().filename().string().starts_with("chain-");
+}
+
 TEST(SampleFlights, AreWhatTheLandscapeMakes) {
     double cell_m = LandscapeOptions{}.cell_size_m;
     EXPECT_EQ(scene::json_from_flight(overview_flight(default_landscape(), cell_m)), file_text("flights/overview.json"));
@@ -28,7 +33,8 @@ TEST(SampleFlights, AreWhatTheLandscapeMakes) {
         EXPECT_EQ(scene::json_from_flight(flight), file_text("flights/" + name + ".json")) << name;
         ++count;
     }
-    size_t files = size_t(std::distance(std::filesystem::directory_iterator(kSamples + "flights"), {}));
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kSamples + "flights")) files += is_of_chains(entry) ? 0 : 1;
     EXPECT_EQ(files, count);
 }
 
@@ -36,6 +42,7 @@ TEST(SampleFlights, NeverGoUnderTheGround) {
     for (const auto& entry : std::filesystem::directory_iterator(kSamples + "flights")) {
         Result<scene::Flight> flight = scene::read_flight(entry.path().string());
         ASSERT_TRUE(flight) << flight.error().message;
+        if (is_of_chains(entry)) continue;
         std::string name = entry.path().stem().string();
         if (name == "s11") continue;                   // over the slopes
         if (name == "s09" || name == "s10") continue;  // round the vase, along the masts: test_sample_objects.cpp

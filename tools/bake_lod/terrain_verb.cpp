@@ -8,6 +8,7 @@
 #include "formats/mapped_file.h"
 #include "formats/terrain_tiles.h"
 #include "tools/bake/dem_provenance.h"
+#include "tools/bake/image_module.h"
 #include "tools/bake/images.h"
 #include "tools/bake/relief.h"
 
@@ -102,6 +103,11 @@ CLI::App* add_terrain_verb(CLI::App& app, TerrainArgs& args, command::Common& co
                      "rounding counts towards every error")
         ->check(command::number_in(1e-6, 1e4));
     command::add_common(*verb, common, command::Uses::memory);
+    // What reads pictures takes memory of its own: opened before the cap counts what the program begins with. Where it is
+    // missing, whoever reads the first picture says so.
+    verb->final_callback([&common] {
+        if (common.memory_bytes != 0) static_cast<void>(image_library());
+    });
     return verb;
 }
 
