@@ -65,7 +65,7 @@ int main() {
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }
     target->bind();
-    pass.use();
+    pass.use(), glDisable(GL_DEPTH_TEST);
     for (int i = 0; i < 6; ++i) glBindTextureUnit(GLuint(i), textures[i]), glUniform1i(pass.at(names[i]), i);
     const GLfloat still[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     glUniformMatrix4fv(pass.at("old_from_new"), 1, GL_FALSE, still);
