@@ -138,11 +138,12 @@ float presence(Moved one, Seen seen) {
     return 1.0;
 #endif
 }
-// Both levels at one place.
+// Both levels at one place; in the same order whichever of them is the newer one, so that the two frames round alike.
 vec3 both(Moved one, Seen newer, Seen older) {
     if (newer.level == older.level) return newer.colour;
 #if WEIGHS_BY_PHASE
-    return mix(older.colour, newer.colour, newer.level == one.to ? one.phase : 1.0 - one.phase);
+    bool is_newer_to = newer.level == one.to;
+    return mix(is_newer_to ? older.colour : newer.colour, is_newer_to ? newer.colour : older.colour, one.phase);
 #else
     float newer_share = presence(one, newer), older_share = presence(one, older);
     vec3 whole = newer_share >= older_share ? newer.colour : older.colour;
@@ -267,10 +268,12 @@ void main() {
         return;
     }
     bool is_older_nearer = older.z > there.z;
-    float share = is_older_nearer ? (older_own >= 0 ? presence(moveds[older_own], older) : 1.0)
-                                  : 1.0 - (own >= 0 ? presence(moveds[own], newer) : 1.0);
-    colour = vec4(mix(newer.colour, older.colour, share), 1.0);
-    if (share > 0.5) gl_FragDepth = older.z;
+    Seen front = newer, behind = older;
+    int front_own = own;
+    if (is_older_nearer) front = older, behind = newer, front_own = older_own;
+    float share = front_own >= 0 ? presence(moveds[front_own], front) : 1.0;
+    colour = vec4(mix(behind.colour, front.colour, share), 1.0);
+    if (is_older_nearer == (share > 0.5)) gl_FragDepth = older.z;
 #endif
 }
 )";
