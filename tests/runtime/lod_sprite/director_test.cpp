@@ -1,5 +1,4 @@
-#include "runtime/lod_sprite/director.h"
-
+// When keys are made, by whom, and how they take over from one another.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,138 +7,12 @@
 #include <map>
 #include <set>
 
-#include "runtime/lod_sprite/on_terrain.h"
-#include "tests/runtime/lod_sprite/sprite_fixture.h"
-#include "tests/tools/synthetic_dem.h"
-#include "tools/bake/terrain.h"
+#include "tests/runtime/lod_sprite/director_flight.h"
 
 namespace overlook::lod_sprite {
 namespace {
 
-using Triangles = std::multiset<std::array<uint32_t, 3>>;
-
-// What a frame was, kept.
-struct Frame {
-    view::Camera camera;
-    Novel novel;
-    std::vector<uint32_t> indices;  // of the coarse cut
-    uint64_t slice_triangles = 0;
-    bool had_work = false, ended_key = false;
-    std::optional<view::Camera> begun;
-};
-
-struct Ground {
-    terrain::Terrain terrain = *terrain::bake(overlook::test::make_hills(257, 257, 4), {}, [](double) {});
-    terrain::Refiner refiner{terrain};
-};
-const Ground& ground() {
-    static const Ground kGround;
-    return kGround;
-}
-
-// Above the hills, looking over them.
-view::Camera start_pose() {
-    view::Camera camera;
-    camera.position_m = {3800, -8500, 2000};
-    camera.pitch_deg = -15;
-    camera.width_px = 320, camera.height_px = 180;
-    return camera;
-}
-
-constexpr uint64_t kThreadTriangles = 1234;  // of keys that a thread is said to have drawn
-
-// Carries out what a director plans, with a ray marcher for a renderer; sees to it that plans can be carried out.
-class Flight {
-  public:
-    explicit Flight(const Settings& settings = {}) : director_(geometry_, settings) {}
-
-    Frame step(const view::Camera& camera) {
-        Frame frame;
-        frame.camera = camera;
-        while (std::optional<KeyWork> work = director_.key_work(camera)) {
-            EXPECT_FALSE(frame.had_work && !frame.ended_key) << "two slices of a key in a frame";
-            carry_out(*work, frame);
-        }
-        EXPECT_EQ(director_.key_triangles(), frame.slice_triangles);
-        frame.novel = director_.novel();
-        frame.indices = geometry_.coarse().indices;
-        EXPECT_EQ(frame.novel.cut.triangle_count, geometry_.coarse().triangle_count());
-        for (const NovelUse& use : frame.novel.keys) EXPECT_TRUE(whole_.count(use.slot)) << "a key that is not whole is used";
-        EXPECT_EQ(frame.novel.is_fine, frame.novel.keys.empty());
-        return frame;
-    }
-    std::vector<Frame> fly(view::Camera camera, const glm::dvec3& step_m, double turn_deg, int frames) {
-        std::vector<Frame> flown;
-        for (int i = 0; i < frames; ++i) {
-            flown.push_back(step(camera));
-            camera.position_m += step_m;
-            camera.heading_deg += turn_deg;
-        }
-        return flown;
-    }
-    Director& director() { return director_; }
-
-    // Of every key begun: its camera, and what was drawn into it.
-    std::vector<std::pair<view::Camera, Triangles>> drawn;
-    std::vector<bool> ended;
-
-  private:
-    void carry_out(const KeyWork& work, Frame& frame) {
-        frame.had_work = true;
-        if (work.begin != nullptr) {
-            frame.begun = *work.begin;
-            whole_.erase(work.slot);
-            camera_of_[work.slot] = *work.begin;
-            place_of_[work.slot] = drawn.size();
-            drawn.push_back({*work.begin, {}});
-            ended.push_back(false);
-        }
-        if (work.slice) add_slice(work, frame);
-        if (!work.is_last) return;
-        frame.ended_key = true;
-        ended[place_of_.at(work.slot)] = true;
-        whole_.insert(work.slot);
-        director_.key_done(test::seen_depths(ground().terrain, camera_of_.at(work.slot), 48), kThreadTriangles);
-        if (!work.slice) frame.slice_triangles = kThreadTriangles;
-    }
-    void add_slice(const KeyWork& work, Frame& frame) {
-        const std::vector<uint32_t>& indices = geometry_.slice().indices;
-        EXPECT_EQ(3 * work.slice->triangle_count, indices.size());
-        frame.slice_triangles += work.slice->triangle_count;
-        Triangles& into = drawn[place_of_.at(work.slot)].second;
-        for (size_t i = 0; i < indices.size(); i += 3) {
-            std::array<uint32_t, 3> t{indices[i], indices[i + 1], indices[i + 2]};
-            std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-            into.insert(t);
-        }
-    }
-
-    TerrainGeometry geometry_{ground().refiner};
-    Director director_;
-    std::set<uint32_t> whole_;
-    std::map<uint32_t, view::Camera> camera_of_;
-    std::map<uint32_t, size_t> place_of_;
-};
-
-Triangles triangles_of(const std::vector<uint32_t>& indices) {
-    Triangles triangles;
-    for (size_t i = 0; i < indices.size(); i += 3) {
-        std::array<uint32_t, 3> t{indices[i], indices[i + 1], indices[i + 2]};
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        triangles.insert(t);
-    }
-    return triangles;
-}
-
-// Frames until one is shown from keys within the settings' limit.
-int frames_without_key(Flight& flight, view::Camera camera, const glm::dvec3& step_m) {
-    for (int frame = 0; frame < 100; ++frame) {
-        Frame shown = flight.step(camera);
-        if (!shown.novel.is_fine && shown.novel.error_p99_px <= flight.director().settings().key_error_px * 1.5) return frame;
-        camera.position_m += step_m;
-    }
-    return 100;
-}
+using namespace flown;
 
 // Keys fade in and out by a step a frame, also where one is done while another fades in, unless none at hand serves any longer.
 // Of two that may be kept, the one left behind has to give its place to the next; but even there the one in use is never emptied
@@ -181,23 +54,6 @@ TEST(Director, NeverBreaksOffAFadeThatServes) {
 }
 
 // What frames with keys keep, frames without one keep as well: keys may be made of finer triangles than anybody asks of a frame.
-TEST(Director, KeepsTheErrorAskedWhileThereIsNoKey) {
-    for (double key_error_px : {0.1, 0.5}) {
-        Settings settings;
-        settings.error_px = 0.1;  // a key of more triangles than a slice
-        settings.key_error_px = key_error_px;
-        Flight flight(settings);
-        view::Camera camera = start_pose();
-        terrain::Cut unkeyed;
-        ground().refiner.cut_by_pixels(camera, key_error_px, unkeyed, settings.morph);
-        Frame first = flight.step(camera);
-        ASSERT_TRUE(first.novel.is_fine);
-        EXPECT_EQ(first.indices, unkeyed.indices);
-        EXPECT_EQ(first.novel.error_p99_px, key_error_px);
-        EXPECT_EQ(first.novel.near_triangle_count, 0u);
-    }
-}
-
 TEST(Director, HasAKeyWithinFifteenFramesOfTheStart) {
     for (double speed_m : {0.0, 3.0}) {
         Flight flight;
@@ -250,22 +106,6 @@ TEST(Director, MakesOneKeyForACameraThatStandsStill) {
             flight.fly(start_pose(), {0, 0, 0}, 0, 60);
             EXPECT_EQ(flight.director().keys_made(), 1u) << error_px;
         }
-}
-
-TEST(Director, KeepsNoPromiseThatATexelCannotShow) {
-    Settings settings;
-    settings.error_px = 0.01, settings.key_error_px = 0.9;
-    auto cut_px = [&](uint32_t scale, double texel_share) {
-        settings.scale = scale, settings.texel_share = texel_share;
-        TerrainGeometry geometry(ground().refiner);
-        return Director(geometry, settings).key_cut_px();
-    };
-    EXPECT_EQ(cut_px(2, 0.25), 0.125);
-    EXPECT_EQ(cut_px(1, 0.25), 0.25);
-    EXPECT_EQ(cut_px(2, 0), 0.01);
-    EXPECT_DOUBLE_EQ(cut_px(1, 1), 0.6);  // room is left below key_error_px
-    settings.error_px = 0.5;
-    EXPECT_EQ(cut_px(2, 0.25), 0.5);
 }
 
 TEST(Director, DrawsEachTriangleOfAKeyOnce) {
@@ -407,98 +247,8 @@ TEST(Director, FadesTheFirstKeyInOverFineGeometry) {
     EXPECT_EQ(weights, (std::vector<double>{1, 0.75, 0.5, 0.25, 0, 0}));
 }
 
-TEST(Director, PutsNearTrianglesFirst) {
-    Settings settings;
-    Flight flight(settings);
-    view::Camera low = start_pose();
-    low.pitch_deg = -35;
-    uint64_t near = 0, far = 0;
-    for (int step = 0; step < 40; ++step) {  // along the ground
-        low.position_m.y += 40;
-        low.position_m.z = test::height_at_m(ground().terrain, low.position_m.x, low.position_m.y) + 60;
-        Frame frame = flight.step(low);
-        if (frame.novel.is_fine) continue;
-        terrain::Cut cut;
-        ground().refiner.cut_by_pixels(frame.camera,
-                                       {settings.low_error_px, settings.morph, frame.novel.near_depth_m, settings.error_px,
-                                        frame.novel.finer_outside, frame.novel.finer_in},
-                                       cut);
-        ASSERT_EQ(triangles_of(frame.indices), triangles_of(cut.indices));
-        view::Axes axes = view::axes_of(frame.camera);
-        for (size_t i = 0; i < frame.indices.size(); i += 3) {
-            double farthest_m = 0;
-            for (size_t k = i; k < i + 3; ++k) {
-                glm::dvec3 away_m = ground().refiner.vertex_m(cut, frame.indices[k]) - frame.camera.position_m;
-                farthest_m = std::max(farthest_m, glm::dot(away_m, axes.forward));
-            }
-            bool is_near = i / 3 < frame.novel.near_triangle_count;
-            ASSERT_EQ(farthest_m < frame.novel.near_depth_m, is_near);
-            ++(is_near ? near : far);
-        }
-    }
-    EXPECT_GT(near, 100u);
-    EXPECT_GT(far, 100u);
-}
-
 // What no key looked at is drawn as fine as asked, at once: a camera that turns never waits for a key.
-TEST(Director, KeepsTheErrorAskedWhereNoKeyLooked) {
-    Flight flight;
-    flight.fly(start_pose(), {0, 2, 0}, 0, 40);
-    view::Camera camera = start_pose();
-    camera.position_m.y += 80;
-    uint32_t turned = 0;
-    for (int frame = 0; frame < 12; ++frame) {
-        camera.heading_deg += 2.8;
-        Frame shown = flight.step(camera);
-        EXPECT_LE(shown.novel.error_p99_px, 1 + 1e-6) << frame;
-        if (shown.novel.is_fine || !shown.novel.finer_outside) continue;
-        ++turned;
-        terrain::Cut coarse;
-        ground().refiner.cut_by_pixels(camera, shown.novel.low_error_px, coarse);
-        EXPECT_GT(shown.indices.size(), coarse.indices.size());
-    }
-    EXPECT_GE(turned, 3u);
-}
-
-uint64_t triangles_in(const Frame& frame) {
-    return frame.slice_triangles + frame.indices.size() / 3;
-}
-
 // Of a steady flight, frames 60 to 160.
-std::vector<Frame> cruise(double triangles, double speed = 1) {
-    Settings settings;
-    settings.error_px = settings.key_error_px = 0.5;
-    settings.triangles = triangles;
-    Flight flight(settings);
-    std::vector<Frame> frames = flight.fly(start_pose(), glm::dvec3(1, 4, 0) * speed, 0.1 * speed, 160);
-    frames.erase(frames.begin(), frames.begin() + 60);
-    return frames;
-}
-
-TEST(Director, SpendsABudgetThatBindsAndNoMore) {
-    std::vector<Frame> free = cruise(0);
-    uint64_t sum = 0;
-    for (const Frame& frame : free) sum += triangles_in(frame);
-    double mean = double(sum) / double(free.size());
-    for (double share : {0.7, 0.4}) {
-        uint64_t keys = 0;
-        for (const Frame& frame : cruise(share * mean)) {
-            EXPECT_LE(double(triangles_in(frame)), 1.05 * share * mean);
-            EXPECT_GE(double(triangles_in(frame)), 0.95 * share * mean);
-            keys += frame.ended_key;
-        }
-        EXPECT_GE(keys, 1u) << share;
-    }
-}
-
-TEST(Director, LeavesABudgetThatDoesNotBindAlone) {
-    std::vector<Frame> free = cruise(0), rich = cruise(1e6);
-    for (size_t i = 0; i < free.size(); ++i) ASSERT_EQ(triangles_in(free[i]), triangles_in(rich[i])) << i;
-}
-
-TEST(Director, SpendsNothingOnFreshKeysForACameraThatStandsStill) {
-    EXPECT_EQ(cruise(500, 0).back().slice_triangles, 0u);
-}
 
 }  // namespace
 }  // namespace overlook::lod_sprite
