@@ -14,6 +14,7 @@ namespace {
 
 using namespace flown;
 
+// What frames with keys keep, frames without one keep as well: keys may be made of finer triangles than anybody asks of a frame.
 TEST(Director, KeepsTheErrorAskedWhileThereIsNoKey) {
     for (double key_error_px : {0.1, 0.5}) {
         Settings settings;
@@ -80,6 +81,7 @@ TEST(Director, PutsNearTrianglesFirst) {
     EXPECT_GT(far, 100u);
 }
 
+// What no key looked at is drawn as fine as asked, at once: a camera that turns never waits for a key.
 TEST(Director, KeepsTheErrorAskedWhereNoKeyLooked) {
     Flight flight;
     flight.fly(start_pose(), {0, 2, 0}, 0, 40);
@@ -103,6 +105,7 @@ uint64_t triangles_in(const Frame& frame) {
     return frame.slice_triangles + frame.indices.size() / 3;
 }
 
+// Of a steady flight, frames 60 to 160.
 std::vector<Frame> cruise(double triangles, double speed = 1) {
     Settings settings;
     settings.error_px = settings.key_error_px = 0.5;

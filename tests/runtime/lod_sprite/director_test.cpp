@@ -53,7 +53,6 @@ TEST(Director, NeverBreaksOffAFadeThatServes) {
     EXPECT_GT(made_in_fades, 0u);
 }
 
-// What frames with keys keep, frames without one keep as well: keys may be made of finer triangles than anybody asks of a frame.
 TEST(Director, HasAKeyWithinFifteenFramesOfTheStart) {
     for (double speed_m : {0.0, 3.0}) {
         Flight flight;
@@ -246,9 +245,6 @@ TEST(Director, FadesTheFirstKeyInOverFineGeometry) {
     weights.resize(6);
     EXPECT_EQ(weights, (std::vector<double>{1, 0.75, 0.5, 0.25, 0, 0}));
 }
-
-// What no key looked at is drawn as fine as asked, at once: a camera that turns never waits for a key.
-// Of a steady flight, frames 60 to 160.
 
 }  // namespace
 }  // namespace overlook::lod_sprite
