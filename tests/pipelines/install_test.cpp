@@ -2,26 +2,32 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <string>
 
 #include "tests/pipelines/shell.h"
 
 namespace overlook {
 namespace {
 
-TEST(Installed, OutsideProjectFindsItAndReadsABakedTerrain) {
-    shell::Scratch scratch;
-    auto installed = shell::run("cmake --install '" OVERLOOK_BINARY_DIR "' --prefix prefix", scratch.path());
-    ASSERT_EQ(installed.exit, 0) << installed.output;
-
-    // A copy, so that nothing of the repository is within reach.
-    auto built = shell::run("cp -r '" OVERLOOK_SOURCE_DIR
-                            "/samples/read_terrain' program\n"
-                            "cmake -S program -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" "
-                            "-DCMAKE_CXX_COMPILER='" OVERLOOK_COMPILER "' -DCMAKE_CXX_FLAGS='" OVERLOOK_SANITIZE_FLAGS
-                            "'\n"
-                            "cmake --build build",
+// Installs into prefix/ and builds a copy of samples/NAME beside it in build/, so that nothing of the repository is within reach.
+void build_outside(const shell::Scratch& scratch, const std::string& name) {
+    auto built = shell::run("cmake --install '" OVERLOOK_BINARY_DIR
+                            "' --prefix prefix\n"
+                            "cp -r '" OVERLOOK_SOURCE_DIR "/samples/" +
+                                name +
+                                "' program\n"
+                                "cmake -S program -B build -G Ninja -DCMAKE_BUILD_TYPE=Release "
+                                "-DCMAKE_PREFIX_PATH=\"$PWD/prefix\" -DCMAKE_CXX_COMPILER='" OVERLOOK_COMPILER
+                                "' -DCMAKE_CXX_FLAGS='" OVERLOOK_SANITIZE_FLAGS
+                                "'\n"
+                                "cmake --build build",
                             scratch.path());
     ASSERT_EQ(built.exit, 0) << built.output;
+}
+
+TEST(Installed, OutsideProjectFindsItAndReadsABakedTerrain) {
+    shell::Scratch scratch;
+    ASSERT_NO_FATAL_FAILURE(build_outside(scratch, "read_terrain"));
 
     // An installed tree may be moved: the module that reads the GeoTIFF is found from where the program is now.
     auto ran = shell::run(
@@ -51,16 +57,7 @@ TEST(Installed, OutsideProjectFindsItAndReadsABakedTerrain) {
 // Of a square of 48 x 48 pixels the middle 32 x 32 are of both levels where the visibility lets half of the narrow one be seen.
 TEST(Installed, OutsideProjectBlendsLevelsWithTheTwoShaderRoutines) {
     shell::Scratch scratch;
-    auto installed = shell::run("cmake --install '" OVERLOOK_BINARY_DIR "' --prefix prefix", scratch.path());
-    ASSERT_EQ(installed.exit, 0) << installed.output;
-    auto built = shell::run("cp -r '" OVERLOOK_SOURCE_DIR
-                            "/samples/blend_levels' program\n"
-                            "cmake -S program -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" "
-                            "-DCMAKE_CXX_COMPILER='" OVERLOOK_COMPILER "' -DCMAKE_CXX_FLAGS='" OVERLOOK_SANITIZE_FLAGS
-                            "'\n"
-                            "cmake --build build",
-                            scratch.path());
-    ASSERT_EQ(built.exit, 0) << built.output;
+    ASSERT_NO_FATAL_FAILURE(build_outside(scratch, "blend_levels"));
     auto ran = shell::run("build/blend_levels", scratch.path());
     ASSERT_EQ(ran.exit, 0) << ran.output;
     int wide = 0, narrow = -1, both = 0;
