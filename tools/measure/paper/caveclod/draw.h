@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/measure/paper/caveclod/fly.h"
+#include "tools/measure/paper/leave.h"
 
 namespace overlook::measure::paper::cameras {
 
@@ -20,15 +21,8 @@ struct Rate {
 Result<std::vector<Rate>> frame_rates(const Subject& subject, const Flying& flying, const std::function<void(double)>& done);
 double mean_fps(const std::vector<Rate>& rates, double Rate::*which);
 
-struct Picture {
-    int figure = 0;
-    std::string name;     // of its file: images/figure-7.png
-    std::string caption;  // with what is counted in it
-    ImageRgb8 image;
-};
-
-// Figures 7 to 9: the cameras' pictures in their places at that time of the flight, each drawn with its own faces, kPictureSamples
-// samples a pixel.
+// Figures 7 to 9: the cameras' pictures in their places at that time of the flight, each drawn with its own faces,
+// kPictureSamples samples a pixel.
 constexpr uint32_t kPictureSamples = 4;
 Result<Picture> flyover_picture(const Subject& subject, const Flying& flying, int figure, uint32_t cameras, double time_s);
 

@@ -3,13 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "formats/atomic_file.h"
 #include "formats/parallel.h"
-#include "runtime/gl/png.h"
 #include "tools/measure/options.h"
 #include "tools/measure/paper/caveclod/page.h"
 #include "tools/measure/paper/caveclod/targets.h"
 #include "tools/measure/paper/caveclod/views.h"
+#include "tools/measure/paper/leave.h"
 #include "tools/measure/paper/work.h"
 
 namespace overlook::measure::paper::cameras {
@@ -97,48 +96,20 @@ Result<Flown> fly_section_4(std::vector<Subject>& subjects, const Flying& flying
     return flown;
 }
 
-Result<void> write_tables(const Flown& flown, const std::string& out) {
+Result<void> deliver(const Flown& flown, const RunSetup& setup, const std::string& out, const command::Common& common) {
     std::vector<Table1Row> rows;
     for (const FlownSubject& subject : flown.subjects) rows.push_back(subject.memory);
-    const std::pair<const char*, std::string> tables[] = {{"windows.csv", windows_csv(flown)},
-                                                          {"flyovers.csv", flyovers_csv(flown)},
-                                                          {"memory.csv", memory_csv(flown)},
-                                                          {"frame_rates.csv", frame_rates_csv(flown)},
-                                                          {"table1.csv", table1_csv(rows)}};
-    for (const auto& [name, text] : tables) {
-        if (Result<void> written = write_file(out + "/" + name, std::string_view(text)); !written) return written;
-    }
-    return {};
-}
-
-Result<void> deliver(const Flown& flown, const RunSetup& setup, const std::string& out, const command::Common& common) {
-    if (Result<void> written = write_tables(flown, out); !written) return written;
-    for (const FlownSubject& subject : flown.subjects)
-        for (const Picture& picture : subject.pictures) {
-            Result<void> written = write_png(out + "/images/" + picture.name + ".png", picture.image);
-            if (!written) return written;
-        }
-    std::vector<Chart> charts = charts_10_to_14(flown);
-    Result<bool> drawn = draw_charts(charts, out);
-    if (!drawn) return tl::unexpected(drawn.error());
-    if (!*drawn) command::note(common, "reproduce: gnuplot is not installed; the charts are left out");
-    std::string page = caveclod_page_html({flown, setup, charts, *drawn});
-    if (Result<void> written = write_file(out + "/index.html", std::string_view(page)); !written) return written;
-    for (const Target& target : targets_of(flown)) command::note(common, "reproduce: " + target_line(target, target_columns()));
-    command::note(common, fmt::format("reproduce: the page: {}/index.html", out));
-    return {};
-}
-
-Result<std::vector<Subject>> read_subjects(const std::vector<std::string>& folders) {
-    std::vector<Subject> subjects;
-    for (const std::string& folder : folders) {
-        Result<Subject> subject = read_subject(folder);
-        if (!subject) return tl::unexpected(subject.error());
-        if (place_of(subjects, subject->name, folders.size()) < folders.size())
-            return bad_command("{}: another folder is called {} too; give each a name of its own", folder, subject->name);
-        subjects.push_back(std::move(*subject));
-    }
-    return subjects;
+    Leavings leavings;
+    leavings.tables = {{"windows.csv", windows_csv(flown)},
+                       {"flyovers.csv", flyovers_csv(flown)},
+                       {"memory.csv", memory_csv(flown)},
+                       {"frame_rates.csv", frame_rates_csv(flown)},
+                       {"table1.csv", table1_csv(rows)}};
+    for (const FlownSubject& subject : flown.subjects) add_pictures(leavings, subject.pictures);
+    leavings.charts = charts_10_to_14(flown);
+    leavings.page = [&](bool has_charts) { return caveclod_page_html({flown, setup, leavings.charts, has_charts}); };
+    for (const Target& target : targets_of(flown)) leavings.targets.push_back(target_line(target, target_columns()));
+    return leave(leavings, out, common);
 }
 
 }  // namespace
@@ -174,7 +145,7 @@ Result<void> run_paper(const PaperOptions& options, const std::vector<std::strin
     if (Result<void> size = parse_size(options.size, flying.width_px, flying.height_px); !size) return size;
     if (flying.width_px < 2 || flying.height_px < 2)
         return bad_command("--size {}: quadrants want two pixels a side", options.size);
-    Result<std::vector<Subject>> read = read_subjects(options.folders);
+    Result<std::vector<Subject>> read = read_each(options.folders, read_subject);
     if (!read) return tl::unexpected(read.error());
     flying.settings.error_px = options.error_px;
     uint32_t all_frames = 0;

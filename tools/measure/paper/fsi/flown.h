@@ -10,15 +10,9 @@
 #include "tools/measure/paper/fsi/drawbacks.h"
 #include "tools/measure/paper/fsi/film.h"
 #include "tools/measure/paper/fsi/sizes.h"
+#include "tools/measure/paper/leave.h"
 
 namespace overlook::measure::paper::fsi {
-
-struct Picture {
-    int figure = 0;    // of the paper; 0: of none
-    std::string name;  // of its file: images/figure-7.png
-    std::string caption;
-    ImageRgb8 image;
-};
 
 struct Flown {
     uint32_t frames = 0;              // of figure 8

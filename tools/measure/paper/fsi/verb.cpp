@@ -1,61 +1,30 @@
 #include "tools/measure/paper/fsi/verb.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
-#include "formats/atomic_file.h"
-#include "runtime/gl/png.h"
 #include "tools/measure/paper/fsi/fly.h"
 #include "tools/measure/paper/fsi/page.h"
 #include "tools/measure/paper/fsi/targets.h"
+#include "tools/measure/paper/leave.h"
 #include "tools/measure/paper/work.h"
 
 namespace overlook::measure::paper::fsi {
 namespace {
 
-Result<void> write_tables(const Flown& flown, const std::string& out) {
-    const std::pair<const char*, std::string> tables[] = {{"sizes.csv", sizes_csv(flown.points)},
-                                                          {"films.csv", films_csv(flown.films)},
-                                                          {"variations.csv", films_csv(flown.varied)},
-                                                          {"optimised.csv", films_csv(flown.optimised)},
-                                                          {"combining.csv", combining_csv(flown.combining)},
-                                                          {"ramps.csv", ramps_csv()}};
-    for (const auto& [name, text] : tables) {
-        if (Result<void> written = write_file(out + "/" + name, std::string_view(text)); !written) return written;
-    }
-    return {};
-}
-
 Result<void> deliver(const Flown& flown, const RunSetup& setup, const std::string& out, const command::Common& common) {
-    if (Result<void> written = write_tables(flown, out); !written) return written;
-    for (const std::vector<Picture>* pictures : {&flown.pictures, &flown.sequences})
-        for (const Picture& picture : *pictures) {
-            Result<void> written = write_png(out + "/images/" + picture.name + ".png", picture.image);
-            if (!written) return written;
-        }
-    std::vector<Chart> charts = charts_of(flown);
-    Result<bool> drawn = draw_charts(charts, out);
-    if (!drawn) return tl::unexpected(drawn.error());
-    if (!*drawn) command::note(common, "reproduce: gnuplot is not installed; the charts are left out");
-    std::string page = fsi_page_html({flown, setup, charts, *drawn});
-    if (Result<void> written = write_file(out + "/index.html", std::string_view(page)); !written) return written;
-    for (const Target& target : targets_of(flown)) command::note(common, "reproduce: " + target_line(target, target_columns()));
-    command::note(common, fmt::format("reproduce: the page: {}/index.html", out));
-    return {};
-}
-
-Result<std::vector<Subject>> read_subjects(const std::vector<std::string>& folders) {
-    std::vector<Subject> subjects;
-    for (const std::string& folder : folders) {
-        Result<Subject> subject = read_subject(folder);
-        if (!subject) return tl::unexpected(subject.error());
-        bool is_taken =
-            std::any_of(subjects.begin(), subjects.end(), [&](const Subject& one) { return one.name == subject->name; });
-        if (is_taken)
-            return bad_command("{}: another folder is called {} too; give each a name of its own", folder, subject->name);
-        subjects.push_back(std::move(*subject));
-    }
-    return subjects;
+    Leavings leavings;
+    leavings.tables = {{"sizes.csv", sizes_csv(flown.points)},
+                       {"films.csv", films_csv(flown.films)},
+                       {"variations.csv", films_csv(flown.varied)},
+                       {"optimised.csv", films_csv(flown.optimised)},
+                       {"combining.csv", combining_csv(flown.combining)},
+                       {"ramps.csv", ramps_csv()}};
+    add_pictures(leavings, flown.pictures);
+    add_pictures(leavings, flown.sequences);
+    leavings.charts = charts_of(flown);
+    leavings.page = [&](bool has_charts) { return fsi_page_html({flown, setup, leavings.charts, has_charts}); };
+    for (const Target& target : targets_of(flown)) leavings.targets.push_back(target_line(target, target_columns()));
+    return leave(leavings, out, common);
 }
 
 }  // namespace
@@ -79,7 +48,7 @@ CLI::App* add_verb(CLI::App& app, PaperOptions& options) {
 }
 
 Result<void> run_paper(const PaperOptions& options, const std::vector<std::string>& words, const command::Common& common) {
-    Result<std::vector<Subject>> read = read_subjects(options.folders);
+    Result<std::vector<Subject>> read = read_each(options.folders, read_subject);
     if (!read) return tl::unexpected(read.error());
     if (Result<void> made = make_folders(options.out, {"images"}); !made) return made;
 

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "formats/atomic_file.h"
 #include "formats/mapped_file.h"
-#include "runtime/gl/png.h"
 #include "tools/measure/deliver.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/options.h"
 #include "tools/measure/page_text.h"
+#include "tools/measure/paper/leave.h"
 #include "tools/measure/paper/lod_sprite/paper_page.h"
 #include "tools/measure/paper/lod_sprite/targets.h"
 #include "tools/measure/paper/work.h"
@@ -78,19 +77,6 @@ Result<Flown> fly_all(const Flying& flying, const Plan& plan, const Cast& cast, 
     return flown;
 }
 
-Result<void> write_tables(const Flown& flown, const World& world, const std::string& out) {
-    const std::pair<const char*, std::string> tables[] = {{"thresholds.csv", swept_csv(flown.thresholds)},
-                                                          {"frame_counts.csv", swept_csv(flown.frame_counts)},
-                                                          {"path.csv", path_csv(flown)},
-                                                          {"map.csv", map_csv(world)},
-                                                          {"remedies.csv", remedies_csv(flown.remedies)},
-                                                          {"held_keys.csv", held_keys_csv(flown.held)}};
-    for (const auto& [name, text] : tables) {
-        if (Result<void> written = write_file(out + "/" + name, std::string_view(text)); !written) return written;
-    }
-    return {};
-}
-
 // The page that measure makes of the same run keeps another name.
 Result<void> keep_measured_page(const std::string& out) {
     std::error_code problem;
@@ -105,28 +91,23 @@ Result<void> deliver_paper(const Flown& flown, const World& world, const RunSetu
     quiet.quiet = true;
     if (Result<void> delivered = deliver(flown.beside, setup, out, quiet); !delivered) return delivered;
     if (Result<void> kept = keep_measured_page(out); !kept) return kept;
-    if (Result<void> written = write_tables(flown, world, out); !written) return written;
     std::vector<std::vector<FigurePicture>> pictures;
-    for (const ViewPictures& view : flown.views) {
-        pictures.push_back(pictures_of(view));
-        for (const FigurePicture& picture : pictures.back()) {
-            Result<void> written = write_png(out + "/images/" + picture.name + ".png", picture.image);
-            if (!written) return written;
-        }
-    }
-    std::vector<Chart> charts = charts_8_to_14(flown), all = charts, held = held_keys_charts(flown.held);
-    if (!flown.held.empty()) all.insert(all.end(), held.begin(), held.end());
-    Result<bool> drawn = draw_charts(all, out);
-    if (!drawn) return tl::unexpected(drawn.error());
-    if (!*drawn) command::note(common, "reproduce: gnuplot is not installed; the charts are left out");
-    std::string page = paper_page_html({flown, setup, charts, pictures, *drawn});
-    return write_file(out + "/index.html", std::string_view(page));
-}
-
-void say_targets(const Flown& flown, const std::string& out, const command::Common& common) {
-    for (const Target& target : targets_of(flown))
-        command::note(common, "reproduce: " + target_line(target, sprite_names(flown)));
-    command::note(common, fmt::format("reproduce: the page: {}/index.html", out));
+    for (const ViewPictures& view : flown.views) pictures.push_back(pictures_of(view));
+    Leavings leavings;
+    leavings.tables = {{"thresholds.csv", swept_csv(flown.thresholds)},
+                       {"frame_counts.csv", swept_csv(flown.frame_counts)},
+                       {"path.csv", path_csv(flown)},
+                       {"map.csv", map_csv(world)},
+                       {"remedies.csv", remedies_csv(flown.remedies)},
+                       {"held_keys.csv", held_keys_csv(flown.held)}};
+    for (const std::vector<FigurePicture>& view : pictures)
+        for (const FigurePicture& picture : view) leavings.pictures.emplace_back(picture.name, &picture.image);
+    std::vector<Chart> charts = charts_8_to_14(flown), held = held_keys_charts(flown.held);
+    leavings.charts = charts;
+    if (!flown.held.empty()) leavings.charts.insert(leavings.charts.end(), held.begin(), held.end());
+    leavings.page = [&](bool has_charts) { return paper_page_html({flown, setup, charts, pictures, has_charts}); };
+    for (const Target& target : targets_of(flown)) leavings.targets.push_back(target_line(target, sprite_names(flown)));
+    return leave(leavings, out, common);
 }
 
 RunSetup setup_of(const Flying& flying, double step_s, const std::vector<std::string>& words) {
@@ -198,9 +179,7 @@ Result<void> run_paper(const PaperOptions& options, const std::vector<std::strin
     if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
 
     RunSetup setup = setup_of(flying, flown->step_s, words);
-    if (Result<void> delivered = deliver_paper(*flown, world, setup, options.out, common); !delivered) return delivered;
-    say_targets(*flown, options.out, common);
-    return {};
+    return deliver_paper(*flown, world, setup, options.out, common);
 }
 
 }  // namespace overlook::measure::paper::sprite
