@@ -132,7 +132,20 @@ void Director::sort_items() {
     for (const Item& item : frame_.translucent) frame_.triangle_count += facts_.levels[item.level].triangle_count;
 }
 
+int64_t Director::balance() const {
+    int64_t balance = 0;
+    for (const State& state : states_) {
+        if (!state.transition.is_resting()) balance += (state.is_odd ? -1 : 1) * difference(state.transition);
+    }
+    return balance;
+}
+
 void Director::decide(const view::Camera& camera, double dt_s) {
+    int64_t alone = balance();
+    decide(camera, dt_s, alone);
+}
+
+void Director::decide(const view::Camera& camera, double dt_s, int64_t& balance) {
     // A change that begins with the next frame ends a frame later.
     double horizon_s = options_.fade_s + 2 * dt_s;
     view::Camera later = foresight_.ahead(camera, dt_s, options_.fade_s, horizon_s);
@@ -141,10 +154,7 @@ void Director::decide(const view::Camera& camera, double dt_s) {
     Selector selector(facts_, options_.select, camera, foresees ? &ahead : nullptr);
     frame_ = {};
     ++frame_count_;
-    balance_ = 0;
-    for (const State& state : states_) {
-        if (!state.transition.is_resting()) balance_ += (state.is_odd ? -1 : 1) * difference(state.transition);
-    }
+    balance_ = balance;
     for (uint32_t instance = 0; instance < states_.size(); ++instance) {
         State& state = states_[instance];
         bool is_in_view = selector.is_in_view(placements_[instance]);
@@ -154,6 +164,7 @@ void Director::decide(const view::Camera& camera, double dt_s) {
         ++frame_.in_view_count;
         list(instance, state, selector);
     }
+    balance = balance_;
     frame_.tested_count = states_.size();
     sort_items();
     auto depth_m = [&](const Item& item) {

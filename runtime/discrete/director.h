@@ -64,6 +64,11 @@ class Director {
     void place(std::span<const Placement> placements);
     // One frame. Before the first, and out of view, levels are as wanted at once. dt_s >= 0: since the last frame.
     void decide(const view::Camera& camera, double dt_s);
+    // The same of one of several directors in a picture. balance: the sum of all their balances before the frame; goes on with
+    // what begins here.
+    void decide(const view::Camera& camera, double dt_s, int64_t& balance);
+    // Triangles that even frames draw more than odd ones, of the changes under way. O(instances).
+    int64_t balance() const;
     // Keeps levels and transitions; if the variant does not fade they end.
     void change(const FrameOptions& options);
 
@@ -98,7 +103,7 @@ class Director {
     FrameList frame_;
     Foresight foresight_;
     uint64_t frame_count_ = 0;
-    int64_t balance_ = 0;  // triangles that even frames draw more than odd ones
+    int64_t balance_ = 0;  // of the picture, while a frame is decided
 };
 
 }  // namespace overlook::discrete

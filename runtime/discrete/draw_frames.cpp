@@ -53,9 +53,9 @@ Result<void> FrameDrawer::change(const FrameOptions& options) {
     return draws_alike ? Result<void>() : make_turns();
 }
 
-void FrameDrawer::decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s) {
+void FrameDrawer::decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s, int64_t& balance) {
     Director& director = group.director;
-    director.decide(camera, dt_s);
+    director.decide(camera, dt_s, balance);
     const FrameList& frame = director.frame();
     std::swap(group.before, group.now);
     group.now = draw_list(group.drawing->layout(), group.drawing->chain(), frame, director.placements(), camera, clip_s,
@@ -73,15 +73,16 @@ Combination FrameDrawer::combination_for(const view::Camera& camera) const {
     std::vector<UnderWay> all;
     for (const Group& group : groups_) {
         const Director& director = group.director;
-        all.push_back(
-            {&director.frame(), &director.facts(), group.placed_before, director.placements(), group.first_instance});
+        all.push_back({&director.frame(), &director.facts(), group.placed_before, director.placements(), group.first_instance});
     }
     return combination_of(options_, all, has_before_ ? groups_.front().before.camera : camera, camera);
 }
 
 void FrameDrawer::decide(const view::Camera& camera, double dt_s, double clip_s) {
     counts_ = {};
-    for (Group& group : groups_) decide_group(group, camera, dt_s, clip_s);
+    int64_t balance = 0;
+    for (const Group& group : groups_) balance += group.director.balance();
+    for (Group& group : groups_) decide_group(group, camera, dt_s, clip_s, balance);
     ++frame_;
     const view::Camera& old_camera = groups_.front().before.camera;
     has_before_ = frame_ > 1 && old_camera.width_px == camera.width_px && old_camera.height_px == camera.height_px;

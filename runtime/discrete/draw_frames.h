@@ -71,7 +71,8 @@ class FrameDrawer {
     };
     FrameDrawer(std::span<const Stand> stands, const FrameOptions& options);
     Result<void> make_turns();
-    void decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s);
+    // balance: of all groups (Director::decide).
+    void decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s, int64_t& balance);
     Combination combination_for(const view::Camera& camera) const;
 
     FrameOptions options_;

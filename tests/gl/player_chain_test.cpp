@@ -84,7 +84,7 @@ TEST_F(ChainPlayer, ShowsTheWholeOfItWhereNobodySaysWhereFrom) {
 
 TEST_F(ChainPlayer, DrawsSeveralChainsAsTheyStandInTheScene) {
     // The same nine in one layer, and in two that are moved back to where they were.
-    ASSERT_EQ(play(flown("discrete:blend", "one.png") + " --frames 6 --headless"), 0) << output_;
+    ASSERT_EQ(play(flown("discrete", "one.png") + " --frames 6 --headless"), 0) << output_;
     uint64_t triangles = report()["frames"].back()["triangles"];
     std::string near, far;
     for (int i = 0; i < 9; ++i)
@@ -94,7 +94,7 @@ TEST_F(ChainPlayer, DrawsSeveralChainsAsTheyStandInTheScene) {
     write("scene.json", fmt::format(R"({{"version": 1, "layers": [{}"instances": [{}]}},
             {}"transform": {{"translation_m": [100, 0, 0]}}, "instances": [{}]}}]}})",
                                     asset, near, asset, far));
-    ASSERT_EQ(play(flown("discrete:blend", "two.png") + " --frames 6 --headless"), 0) << output_;
+    ASSERT_EQ(play(flown("discrete", "two.png") + " --frames 6 --headless"), 0) << output_;
     EXPECT_EQ(report()["frames"].back()["triangles"], triangles);
     EXPECT_EQ(report()["frames"].back()["instances_in_view"], 9);
     EXPECT_TRUE(bytes("one.png") == bytes("two.png"));
