@@ -9,8 +9,18 @@
 namespace overlook::caveclod {
 namespace {
 
+constexpr size_t kFirstLook = 16;  // every so-manyth triangle is looked at first, for a distance that most others are within
+
 double distance_m(const glm::dvec3& p, const Triangle& t) {
     return std::sqrt(distance2_to_triangle(p, probe_of(t[0], t[1], t[2])));
+}
+
+// The farthest of the corners from one triangle: no point between them is farther.
+double worst_m(const Triangle& corners, const Triangle& t) {
+    TriangleProbe probe = probe_of(t[0], t[1], t[2]);
+    double most2 = 0;
+    for (const glm::dvec3& corner : corners) most2 = std::max(most2, distance2_to_triangle(corner, probe));
+    return std::sqrt(most2);
 }
 
 // A piece of one triangle of `from`.
@@ -24,11 +34,9 @@ struct Piece {
 // Over the whole piece no point is farther from `to` than from any one triangle of it, and there the farthest is a corner.
 double most_of(const Piece& piece, const TriangleTree& to) {
     double most_m = 1e300;
-    for (const TriangleTree::Nearest& candidate : piece.nearest) {
-        double worst_m = 0;
-        for (const glm::dvec3& corner : piece.corners)
-            worst_m = std::max(worst_m, distance_m(corner, to.triangle(candidate.triangle)));
-        most_m = std::min(most_m, worst_m);
+    for (size_t c = 0; c < 3; ++c) {
+        bool is_again = c > 0 && piece.nearest[c].triangle == piece.nearest[c - 1].triangle;
+        if (!is_again) most_m = std::min(most_m, worst_m(piece.corners, to.triangle(piece.nearest[c].triangle)));
     }
     return most_m;
 }
@@ -46,12 +54,21 @@ Distance one_sided_distance(const TriangleTree& from, const TriangleTree& to, do
         found.most_m = std::max(found.most_m, std::min(piece.most_m, is_done(piece.most_m) ? piece.most_m : 0));
         if (!is_done(piece.most_m)) pending.push(piece);
     };
+    uint32_t guess = 0;  // what was nearest last: what is asked next lies close by, mostly
     auto reach = [&](const glm::dvec3& p) {
-        TriangleTree::Nearest nearest = to.nearest(p);
+        double guess_m = distance_m(p, to.triangle(guess));
+        TriangleTree::Nearest nearest = to.nearest(p, guess_m);
+        if (nearest.triangle < to.triangles().size()) guess = nearest.triangle;
+        else nearest = {guess, guess_m};
         found.least_m = std::max(found.least_m, nearest.distance_m);
         return nearest;
     };
-    for (const Triangle& t : from.triangles()) push({t, {reach(t[0]), reach(t[1]), reach(t[2])}, 0});
+    for (size_t i = 0; i < from.triangles().size(); i += kFirstLook) reach(from.triangles()[i][0]);
+    for (const Triangle& t : from.triangles()) {
+        double guess_m = worst_m(t, to.triangle(guess));
+        if (is_done(guess_m)) found.most_m = std::max(found.most_m, guess_m);
+        else push({t, {reach(t[0]), reach(t[1]), reach(t[2])}, 0});
+    }
     uint64_t steps = 0;
     for (; !pending.empty() && !is_done(pending.top().most_m) && steps < most_steps; ++steps) {
         Piece piece = pending.top();
