@@ -1,6 +1,7 @@
 #include "formats/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace overlook::scene {
 namespace {
@@ -26,6 +27,13 @@ constexpr Member kTransformMembers[] = {
     {"rotation_z_deg", Kind::number, false, -360, 360},
     {"scale", Kind::number, false, 1e-6, 1e6},
 };
+constexpr Member kInstanceMembers[] = {
+    kTransformMembers[0],
+    kTransformMembers[1],
+    kTransformMembers[2],
+    {"velocity_m_s", Kind::array, false, -1e4, 1e4, 3},
+    {"spin_deg_s", Kind::number, false, -3600, 3600},
+};
 constexpr Member kLightMembers[] = {{"haze", Kind::number, false, 0, 10}};
 constexpr Member kCameraMembers[] = {
     {"fov_y_deg", Kind::number, false, 1, 170},
@@ -35,6 +43,7 @@ constexpr ObjectForm kForms[] = {
     {"", kSceneMembers},
     {"/$defs/layer", kLayerMembers},
     {"/$defs/transform", kTransformMembers},
+    {"/$defs/instance", kInstanceMembers},
     {"/$defs/light", kLightMembers},
     {"/$defs/camera", kCameraMembers},
 };
@@ -83,21 +92,35 @@ void read_settings(Form& form, const Node& node, Layer& layer) {
     }
 }
 
-Transform read_transform(Form& form, const Node& node) {
+// Left as it is where there is none.
+void read_triple(Form& form, const Node& node, std::array<double, 3>& triple) {
+    std::vector<Node> items = form.items(node);
+    if (!form.is_right()) return;
+    for (size_t i = 0; i < items.size(); ++i) triple[i] = items[i].value->number;
+}
+
+// members: those of a transform, and perhaps more.
+Transform read_transform(Form& form, const Node& node, std::span<const Member> members) {
     Transform transform;
-    form.expect(node, kTransformMembers);
-    std::vector<Node> translation = form.items(form.member(node, "translation_m"));
+    form.expect(node, members);
+    read_triple(form, form.member(node, "translation_m"), transform.translation_m);
     if (!form.is_right()) return transform;
-    for (size_t i = 0; i < translation.size(); ++i) transform.translation_m[i] = translation[i].value->number;
     transform.rotation_z_deg = form.number(node, "rotation_z_deg", transform.rotation_z_deg);
     transform.scale = form.number(node, "scale", transform.scale);
     return transform;
 }
 
+Instance read_instance(Form& form, const Node& node) {
+    Instance instance{read_transform(form, node, kInstanceMembers)};
+    read_triple(form, form.member(node, "velocity_m_s"), instance.velocity_m_s);
+    if (form.is_right()) instance.spin_deg_s = form.number(node, "spin_deg_s", 0);
+    return instance;
+}
+
 void read_instances(Form& form, const Node& node, Layer& layer) {
     if (node.value != nullptr && layer.method != "discrete")
         form.fail(node, fmt::format("{} draws no instances; discrete does", layer.method));
-    for (const Node& item : form.items(node)) layer.instances.push_back(read_transform(form, item));
+    for (const Node& item : form.items(node)) layer.instances.push_back(read_instance(form, item));
 }
 
 Layer read_layer(Form& form, const Node& node) {
@@ -106,7 +129,7 @@ Layer read_layer(Form& form, const Node& node) {
     if (!form.is_right()) return layer;
     read_asset(form, form.member(node, "asset"), layer);
     read_method(form, form.member(node, "method"), layer);
-    layer.transform = read_transform(form, form.member(node, "transform"));
+    layer.transform = read_transform(form, form.member(node, "transform"), kTransformMembers);
     read_instances(form, form.member(node, "instances"), layer);
     read_settings(form, form.member(node, "settings"), layer);
     return layer;
@@ -118,14 +141,22 @@ std::string text_of(const Setting& setting) {
     return json::quoted(std::get<std::string>(setting));
 }
 
-std::string text_of(const Transform& transform) {
-    return fmt::format("{{\"translation_m\": [{}, {}, {}], \"rotation_z_deg\": {}, \"scale\": {}}}", transform.translation_m[0],
+std::string members_of(const Transform& transform) {
+    return fmt::format("\"translation_m\": [{}, {}, {}], \"rotation_z_deg\": {}, \"scale\": {}", transform.translation_m[0],
                        transform.translation_m[1], transform.translation_m[2], transform.rotation_z_deg, transform.scale);
+}
+
+std::string text_of(const Instance& instance) {
+    std::string text = "{" + members_of(instance.transform);
+    const std::array<double, 3>& v = instance.velocity_m_s;
+    if (instance.moves())
+        text += fmt::format(", \"velocity_m_s\": [{}, {}, {}], \"spin_deg_s\": {}", v[0], v[1], v[2], instance.spin_deg_s);
+    return text + "}";
 }
 
 std::string text_of(const Layer& layer) {
     std::string text = fmt::format("    {{\n      \"asset\": {},\n", json::quoted(layer.asset));
-    text += fmt::format("      \"transform\": {},\n", text_of(layer.transform));
+    text += fmt::format("      \"transform\": {{{}}},\n", members_of(layer.transform));
     for (size_t i = 0; i < layer.instances.size(); ++i)
         text += fmt::format("{}        {}", i == 0 ? "      \"instances\": [\n" : ",\n", text_of(layer.instances[i]));
     if (!layer.instances.empty()) text += "\n      ],\n";
@@ -156,6 +187,13 @@ Result<Scene> scene_from(const json::Value& root, const std::string& name) {
 }
 
 }  // namespace
+
+Transform at_time(const Instance& instance, double time_s) {
+    Transform moved = instance.transform;
+    for (size_t i = 0; i < 3; ++i) moved.translation_m[i] += time_s * instance.velocity_m_s[i];
+    moved.rotation_z_deg = std::fmod(moved.rotation_z_deg + std::fmod(time_s * instance.spin_deg_s, 360), 360);
+    return moved;
+}
 
 std::span<const ObjectForm> scene_forms() {
     return kForms;

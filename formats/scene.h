@@ -27,6 +27,17 @@ struct Transform {
     double scale = 1;                              // 1e-6..1e6
 };
 
+// Where an asset stands at the flight's time 0, and how it goes on from there: evenly.
+struct Instance {
+    Transform transform;
+    std::array<double, 3> velocity_m_s{0, 0, 0};  // -1e4..1e4 each
+    double spin_deg_s = 0;                        // about the upright through its own origin, as rotation_z_deg, -3600..3600
+
+    bool moves() const { return velocity_m_s != std::array<double, 3>{0, 0, 0} || spin_deg_s != 0; }
+};
+// Where it is then; its rotation within -360..360.
+Transform at_time(const Instance& instance, double time_s);
+
 using Setting = std::variant<bool, double, std::string>;
 
 // Something drawn, and how.
@@ -35,7 +46,7 @@ struct Layer {
     Transform transform;
     // Where the asset stands, each time whole, before `transform` is applied to all; of method discrete alone. None: once, as it
     // is.
-    std::vector<Transform> instances;                       // at most kMostInstances
+    std::vector<Instance> instances;                        // at most kMostInstances
     std::string method;                                     // one of kMethods
     std::string variant;                                    // as in "lod-sprite:paper"; empty = the default one
     std::vector<std::pair<std::string, Setting>> settings;  // in the file's order; which there are, the method knows

@@ -37,13 +37,13 @@ Placement placement_of(const scene::Transform& transform) {
     return {{to[0], to[1], to[2]}, std::cos(angle), std::sin(angle), transform.scale};
 }
 
-std::vector<Placement> placements_of(std::span<const scene::Transform> instances, const scene::Transform& whole) {
+std::vector<Placement> placements_of(std::span<const scene::Instance> instances, const scene::Transform& whole, double time_s) {
     Placement outer = placement_of(whole);
     if (instances.empty()) return {outer};
     std::vector<Placement> placements;
     placements.reserve(instances.size());
-    for (const scene::Transform& instance : instances) {
-        Placement inner = placement_of(instance);
+    for (const scene::Instance& instance : instances) {
+        Placement inner = placement_of(scene::at_time(instance, time_s));
         placements.push_back({outer.at(inner.translation_m), outer.cosine * inner.cosine - outer.sine * inner.sine,
                               outer.sine * inner.cosine + outer.cosine * inner.sine, outer.scale * inner.scale});
     }

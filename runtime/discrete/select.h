@@ -48,8 +48,9 @@ struct Placement {
     bool operator==(const Placement&) const = default;
 };
 Placement placement_of(const scene::Transform& transform);
-// Of each instance, and all of them moved by `whole`; of no instances `whole` itself.
-std::vector<Placement> placements_of(std::span<const scene::Transform> instances, const scene::Transform& whole);
+// Of each instance at that time of the flight, and all of them moved by `whole`; of no instances `whole` itself.
+std::vector<Placement> placements_of(std::span<const scene::Instance> instances, const scene::Transform& whole,
+                                     double time_s = 0);
 
 // Strains of levels, and who is in the frame, of one camera.
 class Selector {

@@ -59,7 +59,7 @@ Result<std::unique_ptr<Subject>> read_chain_layers(const std::string& path, cons
                 "{}: /layers/{}: asks for another method or settings than /layers/0; chains in one picture are drawn "
                 "alike",
                 path, i);
-        chains.push_back({std::move(*file), discrete::placements_of(here.instances, here.transform)});
+        chains.push_back({std::move(*file), here.instances, here.transform});
     }
     return read_chains(chains, layer.chain);
 }

@@ -37,10 +37,11 @@ class Subject : public Ground {
 Result<std::unique_ptr<Subject>> read_terrain(const container::Reader& file, const LayerMethod& layer);
 Result<std::unique_ptr<Subject>> read_mesh(const container::Reader& file, const LayerMethod& layer);
 
-// A chain of levels in its file, and where it stands in the scene: at least once.
+// A chain of levels in its file, and where it stands and goes in the scene: as a layer's instances and transform say.
 struct ChainLayer {
     container::Reader file;
-    std::vector<discrete::Placement> placements;
+    std::vector<scene::Instance> instances;
+    scene::Transform whole;
 };
 // All in one picture. options: how they change their levels. Fails as discrete::read.
 Result<std::unique_ptr<Subject>> read_chains(std::span<const ChainLayer> layers, const discrete::FrameOptions& options);

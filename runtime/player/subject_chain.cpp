@@ -20,7 +20,10 @@ constexpr double kLeastSpeedShare = 0.05;  // of one thing's size in a second
 // A chain and where it stands.
 struct Stood {
     std::unique_ptr<const discrete::Chain> chain;  // stays where it is, since its drawing knows it
-    std::vector<discrete::Placement> placements;
+    std::vector<scene::Instance> instances;
+    scene::Transform whole;
+    bool moves = false;
+    std::vector<discrete::Placement> placements;  // at the time of the frame
     std::optional<discrete::Drawing> drawing;
 };
 
@@ -75,8 +78,10 @@ class ChainSubject : public Subject {
         if (Result<void> ready = make_ready(style); !ready) return tl::unexpected(ready.error());
         FrameRecord record;
         record.asked_error_px = style.error_px;
-        clip_s_ += style.dt_s;
+        if (has_drawn_) clip_s_ += style.dt_s;
+        has_drawn_ = true;
         gl::Timer deciding;
+        go_on();
         frames_->decide(camera, style.dt_s, clip_s_);
         record.refine_ms = deciding.elapsed_ms();
         gl::Timer drawing;
@@ -102,6 +107,16 @@ class ChainSubject : public Subject {
                 what(placement.at(each.chain->middle_m), each.chain->radius_m * placement.scale);
     }
 
+    // To where what moves is at the clip's time.
+    void go_on() {
+        for (size_t i = 0; i < chains_.size(); ++i) {
+            Stood& each = chains_[i];
+            if (!each.moves) continue;
+            each.placements = discrete::placements_of(each.instances, each.whole, clip_s_);
+            frames_->place(each.placements, i);
+        }
+    }
+
     // With the method and the error of this frame.
     Result<void> make_ready(const FrameStyle& style) {
         discrete::Variant variant = discrete_variant_of(style.method);
@@ -124,7 +139,8 @@ class ChainSubject : public Subject {
     glm::dvec3 lowest_m_{std::numeric_limits<double>::infinity()}, highest_m_{-std::numeric_limits<double>::infinity()};
     double least_radius_m_ = std::numeric_limits<double>::infinity();
     std::unique_ptr<discrete::FrameDrawer> frames_;
-    double clip_s_ = 0;
+    double clip_s_ = 0;  // of the frame; 0 of the first
+    bool has_drawn_ = false;
 };
 
 }  // namespace
@@ -134,7 +150,9 @@ Result<std::unique_ptr<Subject>> read_chains(std::span<const ChainLayer> layers,
     for (const ChainLayer& layer : layers) {
         Result<discrete::Chain> chain = discrete::read(layer.file);
         if (!chain) return tl::unexpected(chain.error());
-        chains.push_back({std::make_unique<const discrete::Chain>(std::move(*chain)), layer.placements, {}});
+        bool moves = std::any_of(layer.instances.begin(), layer.instances.end(), [](const auto& one) { return one.moves(); });
+        chains.push_back({std::make_unique<const discrete::Chain>(std::move(*chain)), layer.instances, layer.whole, moves,
+                          discrete::placements_of(layer.instances, layer.whole), {}});
     }
     return std::make_unique<ChainSubject>(std::move(chains), options);
 }

@@ -127,12 +127,13 @@ const std::string kForest = R"({"version": 1, "layers": [
 TEST(Scene, HoldsInstancesOfItsAsset) {
     Result<Scene> scene = parse_scene(kForest, "s.json");
     ASSERT_TRUE(scene) << scene.error().message;
-    const std::vector<Transform>& instances = scene->layers[0].instances;
+    const std::vector<Instance>& instances = scene->layers[0].instances;
     ASSERT_EQ(instances.size(), 2u);
-    EXPECT_EQ(instances[0].translation_m, (std::array<double, 3>{1, 2, -3}));
-    EXPECT_EQ(instances[0].rotation_z_deg, 90);
-    EXPECT_EQ(instances[0].scale, 0.5);
-    EXPECT_EQ(instances[1].scale, Transform{}.scale);
+    EXPECT_EQ(instances[0].transform.translation_m, (std::array<double, 3>{1, 2, -3}));
+    EXPECT_EQ(instances[0].transform.rotation_z_deg, 90);
+    EXPECT_EQ(instances[0].transform.scale, 0.5);
+    EXPECT_EQ(instances[1].transform.scale, Transform{}.scale);
+    EXPECT_FALSE(instances[0].moves());
     EXPECT_EQ(scene->layers[0].transform.scale, 3);
 
     std::string text = json_from_scene(*scene);
@@ -140,7 +141,27 @@ TEST(Scene, HoldsInstancesOfItsAsset) {
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(json_from_scene(*again), text);
     ASSERT_EQ(again->layers[0].instances.size(), 2u);
-    EXPECT_EQ(again->layers[0].instances[0].translation_m, instances[0].translation_m);
+    EXPECT_EQ(again->layers[0].instances[0].transform.translation_m, instances[0].transform.translation_m);
+}
+
+TEST(Scene, HoldsHowItsInstancesGoOn) {
+    Result<Scene> scene = parse_scene(
+        R"({"version": 1, "layers": [{"asset": "a.ovl", "method": "discrete", "instances": [
+        {"translation_m": [1, 2, 3], "rotation_z_deg": 300, "velocity_m_s": [0.5, 0, -1], "spin_deg_s": 90}]}]})",
+        "s.json");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Instance& one = scene->layers[0].instances.at(0);
+    EXPECT_TRUE(one.moves());
+    EXPECT_EQ(at_time(one, 0).translation_m, one.transform.translation_m);
+    EXPECT_EQ(at_time(one, 4).translation_m, (std::array<double, 3>{3, 2, -1}));
+    EXPECT_EQ(at_time(one, 4).rotation_z_deg, 300);
+    EXPECT_EQ(at_time(one, 1).rotation_z_deg, 30);
+    std::string text = json_from_scene(*scene);
+    Result<Scene> again = parse_scene(text, "s.json");
+    ASSERT_TRUE(again) << again.error().message << text;
+    EXPECT_TRUE(json_from_scene(*again) == text);
+    EXPECT_EQ(again->layers[0].instances[0].velocity_m_s, one.velocity_m_s);
+    EXPECT_EQ(again->layers[0].instances[0].spin_deg_s, 90);
 }
 
 TEST(Scene, NamesThePlaceOfEveryMistakeInItsInstances) {

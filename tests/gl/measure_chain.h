@@ -12,20 +12,20 @@
 
 namespace overlook::measure {
 
-inline std::vector<scene::Transform> field_of(int side, double apart_m) {
-    std::vector<scene::Transform> instances;
+inline std::vector<scene::Instance> field_of(int side, double apart_m) {
+    std::vector<scene::Instance> instances;
     for (int i = 0; i < side * side; ++i) {
         scene::Transform one;
         one.translation_m = {apart_m * (i % side - side / 2), apart_m * (i / side), 0.2 * (i * 7 % 5)};
         one.rotation_z_deg = i * 37 % 360;
         one.scale = 1 + 0.1 * (i % 3);
-        instances.push_back(one);
+        instances.push_back({one});
     }
     return instances;
 }
 
 // Uploaded.
-inline World world_of_chain(const std::string& name, discrete::Chain chain, const std::vector<scene::Transform>& instances) {
+inline World world_of_chain(const std::string& name, discrete::Chain chain, const std::vector<scene::Instance>& instances) {
     World world;
     world.name = name, world.content_hash = "the same " + name;
     world.chains.push_back(chain_world(std::move(chain), instances));

@@ -110,6 +110,23 @@ TEST_F(ChainPlayer, DrawsSeveralChainsAsTheyStandInTheScene) {
     EXPECT_NE(output_.find("/layers/1: asks for another method"), std::string::npos) << output_;
 }
 
+TEST_F(ChainPlayer, MovesItsInstancesWithTheFlight) {
+    // The fifth frame is at 0.5 s.
+    auto scene_of = [](const char* instance) {
+        return fmt::format(R"({{"version": 1, "layers": [{{"asset": "chain.ovl", "method": "discrete:switch", "instances": [{}]}}]}})",
+                           instance);
+    };
+    auto draw = [&](const char* instance, const char* picture) {
+        write("scene.json", scene_of(instance));
+        ASSERT_EQ(play(flown("discrete:switch", picture) + " --frames 5 --headless"), 0) << output_;
+    };
+    draw(R"({"translation_m": [2, 3, 1], "velocity_m_s": [4, 2, -1], "spin_deg_s": 60})", "moved.png");
+    draw(R"({"translation_m": [4, 4, 0.5], "rotation_z_deg": 30})", "there.png");
+    draw(R"({"translation_m": [2, 3, 1]})", "before.png");
+    EXPECT_TRUE(bytes("moved.png") == bytes("there.png"));
+    EXPECT_TRUE(bytes("moved.png") != bytes("before.png"));
+}
+
 TEST_F(ChainPlayer, RefusesInOneLine) {
     write("hills.json", scene("hills.ovl", R"("method": "discrete", )"));
     EXPECT_EQ(play(in_folder("hills.json") + " --headless"), 3);

@@ -38,6 +38,8 @@ class Chain : public Method {
 
     void decide(const view::Camera& camera, uint32_t frame) override {
         if (controller_) ask_for(controller_->error_px());
+        for (size_t i = 0; i < world_.chains.size(); ++i)
+            if (world_.chains[i].moves()) frames_->place(world_.chains[i].placements, i);
         frames_->decide(camera, double(frame - last_frame_) * world_.step_s, double(frame) * world_.step_s);
         if (controller_) controller_->frame_done(double(frames_->counts().triangle_count));
         last_frame_ = frame;

@@ -52,7 +52,7 @@ class Field {
         Running& running = runs[run];
         FrameRecord record;
         record.frame = frame;
-        world_->time_s = double(lead_frames_ + frame) * world_->step_s;
+        world_->go_to(double(lead_frames_ + frame) * world_->step_s);
         gl::Timer deciding;
         running.method->decide(camera, lead_frames_ + frame);
         record.decide_ms = deciding.elapsed_ms();
@@ -172,7 +172,7 @@ class Judge {
     static constexpr uint32_t kFlipStep = 10;
 
     // What moves by itself is where it is then.
-    void go_to(uint32_t frame) { world_.time_s = double(course_.lead.size() + frame) * course_.step_s; }
+    void go_to(uint32_t frame) { world_.go_to(double(course_.lead.size() + frame) * course_.step_s); }
 
     Result<Frame> referred(uint32_t frame) {
         gl::Timer referring;

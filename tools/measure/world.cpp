@@ -121,10 +121,22 @@ view::Camera World::local(const view::Camera& camera) const {
     return is_mesh() || is_chain() ? own : terrain::with_clear_near_plane(*terrain, own);
 }
 
-ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances, const scene::Transform& whole) {
+bool ChainWorld::moves() const {
+    return std::any_of(instances.begin(), instances.end(), [](const scene::Instance& one) { return one.moves(); });
+}
+
+void World::go_to(double time) {
+    time_s = time;
+    for (ChainWorld& one : chains)
+        if (one.moves()) one.placements = discrete::placements_of(one.instances, one.whole, time);
+}
+
+ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Instance> instances, const scene::Transform& whole) {
     ChainWorld made;
     made.chain = std::make_unique<discrete::Chain>(std::move(chain));
     made.facts = discrete::facts_of(*made.chain);
+    made.instances.assign(instances.begin(), instances.end());
+    made.whole = whole;
     made.placements = discrete::placements_of(instances, whole);
     return made;
 }

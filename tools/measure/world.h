@@ -37,8 +37,12 @@ struct MeshWorld {
 struct ChainWorld {
     std::unique_ptr<discrete::Chain> chain;
     std::optional<discrete::Drawing> drawing;
-    std::vector<discrete::Placement> placements;  // at least one
+    std::vector<scene::Instance> instances;       // none: once, as `whole` says
+    scene::Transform whole;                       // moves all of them
+    std::vector<discrete::Placement> placements;  // at least one: at World::time_s
     discrete::ChainFacts facts;
+
+    bool moves() const;
 };
 
 // Holds a terrain, a mesh or chains of levels. Must go before the context that it was uploaded to.
@@ -56,17 +60,19 @@ struct World {
     scene::Transform transform;       // from the thing's own frame into the scene's; of chains, whose placements hold it, none
     view::Camera base;                // what a flight does not say: near plane, field of view
     double step_s = 1.0 / 60;         // of the logical clock, from frame to frame
-    double time_s = 0;                // of that clock, of the frame that is drawn: where what moves by itself is
+    double time_s = 0;                // of that clock, of the frame that is drawn; set by go_to()
 
     bool is_mesh() const { return mesh.has_value(); }
     bool is_chain() const { return !chains.empty(); }
     std::string_view thing() const { return is_chain() ? "chain of levels" : is_mesh() ? "mesh" : "terrain"; }
+    // The clock, and with it all that moves by itself.
+    void go_to(double time_s);
     // A camera of the scene in the thing's own frame, its near plane where it cuts nothing off.
     view::Camera local(const view::Camera& camera) const;
 };
 
 // A chain that stands where instances say, or once if there are none; and all of it moved by `whole`.
-ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Transform> instances, const scene::Transform& whole = {});
+ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Instance> instances, const scene::Transform& whole = {});
 
 // Reads a scene (.json) of one terrain, one mesh or any number of chains, or a baked file of one by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
 // scene::read_scene, terrain::read, caveclod::read and discrete::read, and

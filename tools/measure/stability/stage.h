@@ -88,6 +88,9 @@ Result<std::vector<Finding>> run_back_and_forth(Stage&, const Case&, const scene
 // S13: chains of levels that are coplanar or do not match. Time stands still in mid-transition, and goes on until it is over.
 Result<std::vector<Finding>> run_mismatched(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
+// S14: chains of which instances move. What is seen where they have been.
+Result<std::vector<Finding>> run_crossing(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
 // Cases of methods that show pictures again: S05, S15.
 Result<std::vector<Finding>> run_ridge(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_turning_back(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);

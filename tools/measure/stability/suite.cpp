@@ -16,9 +16,9 @@ constexpr Ready kReady[] = {
     {"S04", run_teleports},      {"S05", run_ridge},        {"S06", run_skimming},
     {"S07", run_horizon},        {"S08", run_climb},        {"S09", run_dolly},
     {"S10", run_masts},          {"S11", run_slopes},       {"S12", run_moved_world},
-    {"S13", run_mismatched},     {"S15", run_turning_back}, {"S16", run_dropping},
-    {"S17", run_resize},         {"S18", run_cameras},      {"S19", run_halved_budget},
-    {"S20", run_back_and_forth},
+    {"S13", run_mismatched},     {"S14", run_crossing},     {"S15", run_turning_back},
+    {"S16", run_dropping},       {"S17", run_resize},       {"S18", run_cameras},
+    {"S19", run_halved_budget},  {"S20", run_back_and_forth},
 };
 
 CaseRunner runner_of(const std::string& number) {

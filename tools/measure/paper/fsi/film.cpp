@@ -38,12 +38,12 @@ scene::Transform standing(const discrete::Chain& chain, double up_m, double dist
 }
 
 // up_m: above the ground.
-std::vector<scene::Transform> standing(const discrete::Chain& chain, double up_m, const Stand& stand) {
-    std::vector<scene::Transform> all;
+std::vector<scene::Instance> standing(const discrete::Chain& chain, double up_m, const Stand& stand) {
+    std::vector<scene::Instance> all;
     auto add = [&](uint32_t count, double distance_m) {
         for (uint32_t i = 0; i < count; ++i) {
             double share = count == 1 ? 0.5 : double(i) / (count - 1);
-            all.push_back(standing(chain, up_m, distance_m, kHalfArc_deg * (2 * share - 1)));
+            all.push_back({standing(chain, up_m, distance_m, kHalfArc_deg * (2 * share - 1))});
         }
     };
     add(stand.count, stand.distance_m);
@@ -155,7 +155,7 @@ Result<ImageRgb8> sequence_of(World& world, const Script& script) {
         std::unique_ptr<Method> method = make_method(take.run.spec, world);
         rows.emplace_back();
         for (uint32_t frame = 0; frame < kFilmFrames; ++frame) {
-            world.time_s = frame * kFilmStep_s;
+            world.go_to(frame * kFilmStep_s);
             method->decide(cameras[frame], frame);
             method->draw(*target);
             bool is_shown = std::find(std::begin(kSequenceFrames), std::end(kSequenceFrames), frame) != std::end(kSequenceFrames);
