@@ -47,8 +47,7 @@ struct PlantReport {
     uint32_t candidates = 0, kept = 0;  // how many were made, and which was kept
     double full_density_per_m2 = 0;     // as many as have a place
     double density_per_m2 = 0;          // what was planted
-    uint64_t throws = 0, given = 0;
-    uint32_t rounds = 0;  // of the paper's
+    uint32_t rounds = 0;                // of the paper's
 };
 
 // Corners, then edges, then interiors, each filled until nothing of the least packing radius has a place, then thinned to the
