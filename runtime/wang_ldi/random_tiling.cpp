@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <array>
+
+#include "runtime/wang_ldi/random.h"
+#include "runtime/wang_ldi/tiling.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr uint32_t kMostBlock = 4;
+constexpr uint64_t kMostBorders = uint64_t(1) << 20;
+enum Stream : uint64_t { kCorner = 1, kHorizontal, kVertical, kOrder, kVariant };
+
+int64_t floor_div(int64_t value, int64_t by) {
+    return value >= 0 ? value / by : -((-value + by - 1) / by);
+}
+
+}  // namespace
+
+// Fills one block from the colours of its border, south-west first; tiles that fit are tried in an order from a hash.
+struct BlockFiller {
+    const RandomTiling& tiling;
+    uint32_t side;
+    // [side] each, west to east or south to north.
+    std::array<uint8_t, kMostBlock> south{}, north{}, west{}, east{};
+    uint64_t order_seed = 0;
+    std::array<uint32_t, kMostBlock * kMostBlock> placed{};
+
+    bool fill(uint32_t cell = 0) {
+        if (cell == side * side) return true;
+        uint32_t x = cell % side, y = cell / side;
+        uint8_t below = y == 0 ? south[x] : tiling.prototiles_[placed[cell - side]].north;
+        uint8_t before = x == 0 ? west[y] : tiling.prototiles_[placed[cell - 1]].east;
+        const std::vector<uint32_t>& fitting = tiling.fits_south_west_[below * tiling.vertical_.size() + before];
+        auto count = uint32_t(fitting.size());
+        uint32_t first = count == 0 ? 0 : below_of(mixed(order_seed + cell), count);
+        for (uint32_t i = 0; i < count; ++i) {
+            placed[cell] = fitting[(first + i) % count];
+            const Tile& tile = tiling.prototiles_[placed[cell]];
+            if (x + 1 == side && tile.east != east[y]) continue;
+            if (y + 1 == side && tile.north != north[x]) continue;
+            if (fill(cell + 1)) return true;
+        }
+        return false;
+    }
+    static uint32_t below_of(uint64_t hash, uint32_t count) { return wang_ldi::below(hash, count); }
+
+    // Whether every border of `block` can be filled; of more borders than can be tried: no.
+    static bool fills_every_border(const RandomTiling& tiling, uint32_t block) {
+        uint64_t borders = 1;
+        std::array<uint64_t, 4 * kMostBlock> colours{};
+        for (uint32_t i = 0; i < 4 * block; ++i) {
+            colours[i] = i < 2 * block ? tiling.horizontal_.size() : tiling.vertical_.size();
+            borders *= colours[i];
+            if (borders > kMostBorders) return false;
+        }
+        for (uint64_t border = 0; border < borders; ++border) {
+            BlockFiller filler{tiling, block};
+            uint64_t rest = border;
+            for (uint32_t i = 0; i < 4 * block; ++i) {
+                auto colour = uint8_t(rest % colours[i]);
+                rest /= colours[i];
+                (i < block       ? filler.south
+                 : i < 2 * block ? filler.north
+                 : i < 3 * block ? filler.west
+                                 : filler.east)[i % block] = colour;
+            }
+            if (!filler.fill()) return false;
+        }
+        return true;
+    }
+    // Whether there is a tile for any colours of four edges whose corners agree.
+    static bool is_complete(const RandomTiling& tiling) {
+        for (size_t south = 0; south < tiling.horizontal_.size(); ++south)
+            for (size_t west = 0; west < tiling.vertical_.size(); ++west) {
+                const EdgeColour &s = tiling.horizontal_[south], &w = tiling.vertical_[west];
+                if (s.low != w.low) continue;
+                uint64_t wanted = 0;
+                for (const EdgeColour& n : tiling.horizontal_)
+                    for (const EdgeColour& e : tiling.vertical_) wanted += n.low == w.high && e.low == s.high && n.high == e.high;
+                if (tiling.fits_south_west_[south * tiling.vertical_.size() + west].size() != wanted) return false;
+            }
+        return true;
+    }
+};
+
+Result<RandomTiling> RandomTiling::of(const TileSet& set, uint64_t seed, CornerAt corner_at) {
+    RandomTiling made;
+    made.seed_ = seed, made.corner_at_ = std::move(corner_at), made.corner_colours_ = set.corner_density.size();
+    made.horizontal_ = set.horizontal, made.vertical_ = set.vertical;
+    size_t corners = made.corner_colours_;
+    made.horizontal_between_.resize(corners * corners), made.vertical_between_.resize(corners * corners);
+    for (size_t c = 0; c < set.horizontal.size(); ++c)
+        made.horizontal_between_[set.horizontal[c].low * corners + set.horizontal[c].high].push_back(uint8_t(c));
+    for (size_t c = 0; c < set.vertical.size(); ++c)
+        made.vertical_between_[set.vertical[c].low * corners + set.vertical[c].high].push_back(uint8_t(c));
+    for (size_t t = 0; t < set.tiles.size(); ++t) {
+        auto same = std::find(made.prototiles_.begin(), made.prototiles_.end(), set.tiles[t]);
+        if (same == made.prototiles_.end()) {
+            made.prototiles_.push_back(set.tiles[t]), made.variants_.emplace_back();
+            same = made.prototiles_.end() - 1;
+        }
+        made.variants_[size_t(same - made.prototiles_.begin())].push_back(uint8_t(t));
+    }
+    made.fits_south_west_.resize(set.horizontal.size() * set.vertical.size());
+    for (size_t p = 0; p < made.prototiles_.size(); ++p)
+        made.fits_south_west_[made.prototiles_[p].south * set.vertical.size() + made.prototiles_[p].west].push_back(uint32_t(p));
+
+    bool has_all_edges =
+        std::none_of(made.horizontal_between_.begin(), made.horizontal_between_.end(), [](auto& c) { return c.empty(); }) &&
+        std::none_of(made.vertical_between_.begin(), made.vertical_between_.end(), [](auto& c) { return c.empty(); });
+    if (has_all_edges && BlockFiller::is_complete(made)) return made;
+    if (corners > 1)
+        return impossible("a set of {} tiles with {} colours of corners permits no random access: some four corners have no tile",
+                          set.tiles.size(), corners);
+    for (made.block_ = 2; made.block_ <= kMostBlock; ++made.block_)
+        if (BlockFiller::fills_every_border(made, made.block_)) return made;
+    return impossible("a set of {} tiles permits no random access: some border of {} x {} tiles cannot be filled",
+                      set.tiles.size(), kMostBlock, kMostBlock);
+}
+
+uint8_t RandomTiling::corner(int64_t x, int64_t y) const {
+    if (corner_at_) return corner_at_(x, y);
+    return uint8_t(wang_ldi::below(hash_of(seed_, kCorner, x, y), uint32_t(corner_colours_)));
+}
+
+uint8_t RandomTiling::horizontal_edge(int64_t x, int64_t y) const {
+    const auto& colours = horizontal_between_[corner(x, y) * corner_colours_ + corner(x + 1, y)];
+    return colours[wang_ldi::below(hash_of(seed_, kHorizontal, x, y), uint32_t(colours.size()))];
+}
+
+uint8_t RandomTiling::vertical_edge(int64_t x, int64_t y) const {
+    const auto& colours = vertical_between_[corner(x, y) * corner_colours_ + corner(x, y + 1)];
+    return colours[wang_ldi::below(hash_of(seed_, kVertical, x, y), uint32_t(colours.size()))];
+}
+
+uint32_t RandomTiling::prototile(int64_t x, int64_t y) const {
+    int64_t side = block_, left = floor_div(x, side) * side, bottom = floor_div(y, side) * side;
+    BlockFiller filler{*this, block_};
+    for (uint32_t i = 0; i < block_; ++i) {
+        filler.south[i] = horizontal_edge(left + i, bottom), filler.north[i] = horizontal_edge(left + i, bottom + side);
+        filler.west[i] = vertical_edge(left, bottom + i), filler.east[i] = vertical_edge(left + side, bottom + i);
+    }
+    filler.order_seed = hash_of(seed_, kOrder, left, bottom);
+    filler.fill();
+    return filler.placed[size_t(y - bottom) * block_ + size_t(x - left)];
+}
+
+// Of a place where x + y is even: with fewer than five variants the last is left to those places where it is odd, which so
+// have always one that none of their four neighbours has.
+uint32_t RandomTiling::black_variant(int64_t x, int64_t y, uint32_t variants) const {
+    return wang_ldi::below(hash_of(seed_, kVariant, x, y), variants < 5 ? std::max(1u, variants - 1) : variants);
+}
+
+uint8_t RandomTiling::at(int64_t x, int64_t y) const {
+    uint32_t proto = prototile(x, y);
+    const std::vector<uint8_t>& variants = variants_[proto];
+    auto count = uint32_t(variants.size());
+    if (count == 1) return variants[0];
+    if (((x + y) & 1) == 0) return variants[black_variant(x, y, count)];
+    std::array<bool, 256> taken{};
+    uint32_t taken_count = 0;
+    for (auto [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        if (prototile(x + dx, y + dy) != proto) continue;
+        bool& is_taken = taken[black_variant(x + dx, y + dy, count)];
+        taken_count += !is_taken, is_taken = true;
+    }
+    uint32_t skip = wang_ldi::below(hash_of(seed_, kVariant, x, y), count - taken_count);
+    for (uint32_t v = 0; v < count; ++v)
+        if (!taken[v] && skip-- == 0) return variants[v];
+    return variants[0];
+}
+
+}  // namespace overlook::wang_ldi
