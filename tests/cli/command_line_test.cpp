@@ -33,6 +33,8 @@ const std::vector<Words> kVerbs = {{"bake-lod", "terrain"},
                                    {"make-sample", "slopes"},
                                    {"make-sample", "vase"},
                                    {"make-sample", "masts"},
+                                   {"make-sample", "sunflowers"},
+                                   {"make-sample", "grass"},
                                    {"reproduce", "lod-sprite"},
                                    {"reproduce", "fsi"},
                                    {"player"}};

@@ -7,6 +7,7 @@
 #include "tools/make_sample/sample_instances.h"
 #include "tools/make_sample/sample_lod_sprite.h"
 #include "tools/make_sample/sample_objects.h"
+#include "tools/make_sample/sample_plants.h"
 #include "tools/make_sample/sample_slopes.h"
 #include "tools/make_sample/sample_terrains.h"
 
@@ -130,6 +131,17 @@ int main(int argc, char** argv) {
         crowds.push_back(crowd);
     }
 
+    std::vector<CLI::App*> plants;
+    for (const auto& [name, what] :
+         {std::pair("sunflowers", "11 sunflowers of 35,000 triangles: sunflower-00.glb to sunflower-10.glb"),
+          std::pair("grass",
+                    "A meadow: grass-00.glb to grass-14.glb, dandelion-00.glb to -08.glb, buttercup-00.glb to -14.glb")}) {
+        plants.push_back(app.add_subcommand(
+            name, std::string("Plants of the paper on tiled layered depth images. ") + what + ", recipe.toml, README.md"));
+        plants.back()->add_option("-o,--output", folder, "Folder to write into")->required();
+        command::add_common(*plants.back(), common, command::Uses::seed);
+    }
+
     const std::string writes = "mesh (OBJ), textures, recipe.toml, scene.json, flight-a.json to flight-d.json";
     std::vector<CLI::App*> terrains;
     std::string source;
@@ -154,6 +166,9 @@ int main(int argc, char** argv) {
             crowd_options.seed = common.seed;
             return say_files(crowd->get_name(), sample::make_instances(crowd->get_name(), crowd_options, folder), common);
         }
+        for (const CLI::App* plant : plants)
+            if (plant->parsed())
+                return say_files(plant->get_name(), sample::make_plants(plant->get_name(), common.seed, folder), common);
         for (const CLI::App* object : objects)
             if (object->parsed()) return say_files(object->get_name(), sample::make_object(object->get_name(), folder), common);
         for (const CLI::App* terrain : terrains)

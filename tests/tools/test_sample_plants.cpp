@@ -1,0 +1,182 @@
+// The sets of plants read as they were made, are what the paper's tiles hold, and follow their seed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <regex>
+
+#include "tests/formats/scratch_folder.h"
+#include "tools/bake/mesh_input.h"
+#include "tools/make_sample/meadow.h"
+#include "tools/make_sample/plant_textures.h"
+#include "tools/make_sample/sample_plants.h"
+
+namespace overlook::sample {
+namespace {
+
+const PlantSet& set_of(const std::string& name) {
+    static const PlantSet sunflowers = plant_set("sunflowers", 1).value_or(PlantSet{});
+    static const PlantSet grass = plant_set("grass", 1).value_or(PlantSet{});
+    return name == "grass" ? grass : sunflowers;
+}
+
+double triangles_a_tile(const PlantSet& set) {
+    double triangles = 0, shares = 0;
+    for (const Plant& plant : set.plants) shares += plant.share, triangles += plant.share * double(plant.mesh.faces.size());
+    return set.per_tile * triangles / shares;
+}
+
+// Of the area that its pictures cover, how much shows; 0..1.
+double share_shown(const Paint& paint) {
+    constexpr int kSide = 64;
+    int shown = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) shown += paint((x + 0.5) / kSide, (y + 0.5) / kSide).a >= 0.5;
+    return double(shown) / (kSide * kSide);
+}
+
+TEST(SamplePlants, AreThoseOfThePaper) {
+    int grasses = 0, dandelions = 0, buttercups = 0;
+    for (const Plant& plant : set_of("grass").plants) {
+        grasses += plant.file.rfind("grass-", 0) == 0, dandelions += plant.file.rfind("dandelion-", 0) == 0;
+        buttercups += plant.file.rfind("buttercup-", 0) == 0;
+    }
+    EXPECT_EQ(grasses, 15);
+    EXPECT_EQ(dandelions, 9);
+    EXPECT_EQ(buttercups, 15);
+    EXPECT_NEAR(triangles_a_tile(set_of("grass")), 62'000, 0.02 * 62'000);
+    EXPECT_NEAR(triangles_a_tile(set_of("sunflowers")), 20 * 35'000, 0.02 * 20 * 35'000);
+}
+TEST(SamplePlants, AreFiniteWithNormalsAndPicturesEverywhere) {
+    for (const char* name : {"sunflowers", "grass"})
+        for (const Plant& plant : set_of(name).plants) {
+            const mesh::Mesh& mesh = plant.mesh;
+            bool is_finite = true, is_unit = true, is_in_picture = true, is_whole = true;
+            for (const glm::vec3& at : mesh.positions_m) is_finite &= glm::length(at) < 10;
+            for (const glm::vec3& normal : mesh.normals) is_unit &= std::abs(glm::length(normal) - 1) < 1e-4f;
+            for (const glm::vec2& uv : mesh.uvs) is_in_picture &= uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1;
+            for (size_t f = 0; f < mesh.faces.size(); ++f) {
+                glm::dvec3 a(corner_m(mesh, f, 0)), b(corner_m(mesh, f, 1)), c(corner_m(mesh, f, 2));
+                is_whole &= glm::length(glm::cross(b - a, c - a)) > 0;
+            }
+            EXPECT_TRUE(is_finite) << plant.file;
+            EXPECT_TRUE(is_unit) << plant.file;
+            EXPECT_TRUE(is_in_picture) << plant.file;
+            EXPECT_TRUE(is_whole) << plant.file;
+            for (const mesh::Surface& surface : mesh.surfaces) EXPECT_GT(surface.texture_bytes.size(), 100u) << plant.file;
+        }
+}
+TEST(SamplePlants, LightTheSideThatTheirTrianglesShow) {
+    for (const char* name : {"sunflowers", "grass"})
+        for (const Plant& plant : set_of(name).plants) {
+            size_t turned = 0;
+            for (size_t f = 0; f < plant.mesh.faces.size(); ++f) {
+                glm::dvec3 a(corner_m(plant.mesh, f, 0)), b(corner_m(plant.mesh, f, 1)), c(corner_m(plant.mesh, f, 2)), shown(0);
+                for (uint32_t corner : plant.mesh.face_normals[f]) shown += glm::dvec3(plant.mesh.normals[corner]);
+                turned += glm::dot(glm::cross(b - a, c - a), shown) <= 0;
+            }
+            EXPECT_LE(double(turned), 0.005 * double(plant.mesh.faces.size())) << plant.file;
+        }
+}
+TEST(SamplePlants, StandOnTheGround) {
+    for (const Plant& plant : set_of("grass").plants) {
+        double low_m = 1, top_m = 0;
+        for (const glm::vec3& at : plant.mesh.positions_m)
+            low_m = std::min(low_m, double(at.z)), top_m = std::max(top_m, double(at.z));
+        EXPECT_LE(low_m, 0) << plant.file;
+        EXPECT_GE(low_m, -0.03) << plant.file;
+        EXPECT_GT(top_m, 0.1) << plant.file;
+        EXPECT_LT(top_m, 0.65) << plant.file;
+        EXPECT_LT(tight_radius_m(plant.mesh), 0.25) << plant.file;
+    }
+}
+TEST(SamplePlants, LoseNothingOnTheirWayThroughAFile) {
+    ScratchFolder folder;
+    for (const char* name : {"sunflowers", "grass"}) ASSERT_TRUE(make_plants(name, 1, folder / name));
+    auto expect_whole = [&](const std::string& path, const Plant& plant) {
+        auto file = mesh::open_mesh(path, {});
+        ASSERT_TRUE(file) << file.error().message;
+        EXPECT_EQ(file->mesh.faces.size(), plant.mesh.faces.size()) << plant.file;
+        EXPECT_EQ(file->report.dropped.size(), 0u) << plant.file;
+        EXPECT_EQ(file->report.flipped_face_count, 0u) << plant.file;
+        for (size_t i = 0; i < plant.mesh.surfaces.size() && i < file->mesh.surfaces.size(); ++i) {
+            EXPECT_EQ(file->mesh.surfaces[i].is_alpha_masked, plant.mesh.surfaces[i].is_alpha_masked) << plant.file;
+            EXPECT_EQ(file->mesh.surfaces[i].is_two_sided, plant.mesh.surfaces[i].is_two_sided) << plant.file;
+        }
+    };
+    for (const Plant& plant : set_of("grass").plants) expect_whole(folder / ("grass/" + plant.file), plant);
+    for (size_t i : {0u, 5u, 10u}) {
+        const Plant& plant = set_of("sunflowers").plants[i];
+        expect_whole(folder / ("sunflowers/" + plant.file), plant);
+    }
+}
+TEST(SamplePlants, ShowTheirMasksInUse) {
+    constexpr uint8_t kColourAndOpacity = 6;  // of PNG's header
+    for (const char* name : {"sunflowers", "grass"}) {
+        size_t masked_faces = 0;
+        for (const Plant& plant : set_of(name).plants)
+            for (size_t f = 0; f < plant.mesh.faces.size(); ++f) {
+                const mesh::Surface& surface = plant.mesh.surfaces[plant.mesh.face_surface[f]];
+                if (!surface.is_alpha_masked) continue;
+                ++masked_faces;
+                ASSERT_GT(surface.texture_bytes.size(), 26u);
+                EXPECT_EQ(surface.texture_bytes[25], kColourAndOpacity);
+            }
+        EXPECT_GT(masked_faces, 100u) << name;
+    }
+    for (const auto& [paint, least, most] :
+         {std::tuple(heart_leaf_paint(1), 0.25, 0.6), {palmate_leaf_paint(1), 0.15, 0.6}, {parachute_paint(1), 0.05, 0.6}}) {
+        EXPECT_GT(share_shown(paint), least);
+        EXPECT_LT(share_shown(paint), most);
+    }
+}
+TEST(SamplePlants, FollowTheSeed) {
+    ScratchFolder folder;
+    for (auto [place, seed] : {std::pair("a", 1), {"b", 1}, {"c", 2}})
+        ASSERT_TRUE(make_plants("grass", uint64_t(seed), folder / place));
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "a")) {
+        std::string file = entry.path().filename().string();
+        auto text = [&](const std::string& place) { return text_of_file(folder / (place + ("/" + file))); };
+        EXPECT_TRUE(text("a") == text("b")) << file;
+        EXPECT_FALSE(text("a") == text("c")) << file;
+    }
+    PlantSet again = plant_set("sunflowers", 1).value_or(PlantSet{}), other = plant_set("sunflowers", 2).value_or(PlantSet{});
+    for (size_t i = 0; i < again.plants.size(); ++i) {
+        EXPECT_TRUE(again.plants[i].mesh.positions_m == set_of("sunflowers").plants[i].mesh.positions_m);
+        EXPECT_FALSE(other.plants[i].mesh.positions_m == set_of("sunflowers").plants[i].mesh.positions_m);
+    }
+}
+TEST(SamplePlants, NameEveryModelAndItsRadiiInTheRecipe) {
+    for (const char* name : {"sunflowers", "grass"}) {
+        const PlantSet& set = set_of(name);
+        std::string recipe = plant_recipe(set, 7);
+        EXPECT_NE(recipe.find("seed = 7\n"), std::string::npos);
+        std::smatch head;
+        ASSERT_TRUE(std::regex_search(recipe, head, std::regex("tile_size_m = ([0-9.]+)\ndensity_per_m2 = ([0-9.]+)\n")));
+        double tile_m = std::stod(head[1]), covered_m2 = 0, shares = 0;
+        EXPECT_NEAR(std::stod(head[2]) * tile_m * tile_m, set.per_tile, 0.2);
+        std::regex model(R"(file = "([^"]+)\"\nshare = ([0-9.]+)\ntight_radius_m = ([0-9.]+)\npacking_radius_m = ([0-9.]+)\n)"
+                         R"(scale = \[([0-9.]+), ([0-9.]+)\]\nturn_deg = \[(-?[0-9.]+), ([0-9.]+)\]\n)");
+        size_t i = 0;
+        for (std::sregex_iterator at(recipe.begin(), recipe.end(), model), end; at != end; ++at, ++i) {
+            auto number = [&](size_t group) { return std::stod((*at)[group]); };
+            ASSERT_LT(i, set.plants.size());
+            EXPECT_EQ((*at)[1], set.plants[i].file);
+            for (const glm::vec3& p : set.plants[i].mesh.positions_m) ASSERT_LE(std::hypot(double(p.x), double(p.y)), number(3));
+            EXPECT_GT(number(4), number(3));
+            EXPECT_LT(number(6) * number(4), tile_m / 4);
+            EXPECT_LT(number(5), number(6));
+            EXPECT_LT(number(7), number(8));
+            double radius_m = number(4) * (number(5) + number(6)) / 2;
+            covered_m2 += number(2) * 3.14159265 * radius_m * radius_m, shares += number(2);
+        }
+        EXPECT_EQ(i, set.plants.size());
+        // Discs thrown at random jam at 0.547.
+        EXPECT_NEAR(set.per_tile * covered_m2 / shares / (tile_m * tile_m), 0.5, 0.02) << name;
+    }
+}
+
+}  // namespace
+}  // namespace overlook::sample
