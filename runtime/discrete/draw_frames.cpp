@@ -99,6 +99,7 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target, const DrawOption
         if (!calls) return tl::unexpected(calls.error());
         counts.draw_call_count = *calls;
         counts.resident_bytes = turns_->bytes(target.samples());
+        counts.combined_px = turns_->combined_px();
         return counts;
     }
     std::vector<Drawn> parts;

@@ -23,6 +23,7 @@ struct FrameCounts {
     uint64_t in_view_count = 0;   // of them
     uint64_t begun_count = 0;     // changes of level begun, turned or done at once
     uint64_t fading_count = 0;    // under way
+    uint64_t combined_px = 0;     // pixels for which two frames were put together; of variants that draw by turns
     uint64_t resident_bytes = 0;  // of buffers that this variant has beside the chain
     uint64_t state_bytes = 0;     // what instances keep in main memory
     double error_px = 0;          // the greatest bound of what is drawn, against the finest level

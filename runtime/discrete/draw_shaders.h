@@ -148,7 +148,8 @@ void main() {
 }
 )";
 
-// A buffer of frame-sequential interpolation. KEEPS_HIDDEN: alpha says when the place appears, and nothing is left out.
+// A buffer of frame-sequential interpolation. KEEPS_HIDDEN: alpha says how early the place appears, 1 at once, and nothing is left
+// out.
 inline constexpr char kTurnMain[] = R"(
 layout(location = 1) out uvec2 ids;  // instance + 1, level
 void main() {
@@ -158,7 +159,7 @@ void main() {
 #if !KEEPS_HIDDEN
     if (appears > item.share) discard;
 #endif
-    colour = vec4(encoded(own), appears);
+    colour = vec4(encoded(own), 1.0 - appears);
     ids = uvec2(item.id, item.level);
 }
 )";

@@ -10,36 +10,10 @@
 #include <span>
 
 #include "runtime/discrete/draw.h"
-#include "runtime/discrete/reprojection.h"
+#include "runtime/discrete/draw_combination.h"
 #include "runtime/discrete/settings.h"
 
 namespace overlook::discrete {
-
-// An instance under way, as in draw_turn_shaders.h.
-struct PackedMoved {
-    glm::mat4 old_from_new{1}, new_from_old{1};
-    uint32_t id = 0, from = 0, to = 0;
-    float phase = 0;
-    float near_z = 0, far_z = 0, pad[2] = {0, 0};
-};
-static_assert(sizeof(PackedMoved) == 160);
-
-// All that combining a frame with the one before it takes, beside their buffers.
-struct Combination {
-    Reprojection camera;
-    std::vector<PackedMoved> moved;  // nearest first
-    Tiles tiles;
-};
-// What of one chain is under way.
-struct UnderWay {
-    const FrameList* frame = nullptr;
-    const ChainFacts* facts = nullptr;
-    std::span<const Placement> before, now;  // where the instances stood in the frame before, and stand
-    uint32_t first_instance = 0;             // instances of chains before this one
-};
-// Of all chains of a picture. old_camera: of the frame before.
-Combination combination_of(const FrameOptions& options, std::span<const UnderWay> chains, const view::Camera& old_camera,
-                           const view::Camera& new_camera);
 
 // A chain's part of two frames that are put together.
 struct TurnPart {
@@ -59,33 +33,26 @@ class Turns {
     // to the card. Fails with Exit::impossible if the renderer has no such buffers.
     Result<uint64_t> draw(const gl::Target& target, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
                           bool has_before, const Combination& combination, uint64_t& uploaded_bytes);
+    // Of the last draw().
+    uint64_t combined_px() const { return combined_px_; }
     uint64_t bytes(uint32_t samples) const;  // of the buffers for targets of so many samples a pixel
 
   private:
-    struct Buffer {
-        gl::Texture colour, ids, depth;
-        gl::Framebuffer framebuffer;
-        uint64_t frame = 0;  // 0: none
-    };
     struct Pair {
         uint32_t width_px = 0, height_px = 0, samples = 0;
-        std::array<Buffer, 2> buffers;
-        gl::Program combine;
+        std::array<TurnBuffer, 2> buffers;
+        Combiner combiner;
     };
     Result<Pair*> pair_for(const gl::Target& target);
-    Result<Buffer> make_buffer(const gl::Target& target) const;
-    Result<gl::Program> combine_program(uint32_t samples) const;
-    uint64_t fill(const Pair& pair, Buffer& buffer, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
+    Result<TurnBuffer> make_buffer(const gl::Target& target) const;
+    uint64_t fill(const Pair& pair, TurnBuffer& buffer, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
                   const DrawList* TurnPart::*list, uint64_t& uploaded_bytes);
-    void combine(const gl::Target& target, const Pair& pair, const Buffer& newer, const Buffer& older,
-                 const Combination& combination);
 
     FrameOptions options_;
     gl::Program turn_;
     std::map<uint32_t, Pair> pairs_;  // by samples
     std::vector<ListBuffers> lists_;  // by part
-    gl::StreamBuffer moved_, tiles_;
-    gl::VertexArray nothing_;
+    uint64_t combined_px_ = 0;
 };
 
 }  // namespace overlook::discrete

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace overlook::discrete {
 namespace {
@@ -85,8 +86,42 @@ Extent extent_of(const view::Camera& camera, const glm::dvec3& from_eye_m, doubl
     };
     range(glm::dot(axes.right, from_eye_m), camera.width_px, extent.left, extent.right);
     range(glm::dot(axes.up, from_eye_m), camera.height_px, extent.bottom, extent.top);
+    double distance_m = glm::length(from_eye_m);
+    extent.towards = glm::dvec3(glm::dot(axes.right, from_eye_m), glm::dot(axes.up, from_eye_m), forward) / distance_m;
+    // No pixel is seen under a greater angle than those in the middle.
+    extent.half_rad = std::asin(std::min(radius_m / distance_m, 1.0)) + std::sqrt(2.0) * margin_px / focal;
     return extent;
 }
+
+namespace {
+
+// Cones round squares of a camera's picture.
+class SquareCones {
+  public:
+    explicit SquareCones(const view::Camera& camera)
+        : focal_px_(view::focal_px(camera)), middle_px_(glm::dvec2(camera.width_px, camera.height_px) / 2.0) {}
+    // Does what is seen in a square reach into the extent's cone?
+    bool meets(const Extent& extent, int column, int row) const {
+        if (extent.half_rad >= std::numbers::pi) return true;
+        constexpr double kSide = Tiles::kSide_px;
+        glm::dvec2 low = glm::dvec2(column, row) * kSide - middle_px_;
+        glm::dvec3 middle = glm::normalize(glm::dvec3(low + kSide / 2, focal_px_));
+        double half_rad = 0;
+        for (int corner = 0; corner < 4; ++corner) {
+            glm::dvec3 at = glm::normalize(glm::dvec3(low + kSide * glm::dvec2(corner & 1, corner >> 1), focal_px_));
+            half_rad = std::max(half_rad, angle(middle, at));
+        }
+        return angle(middle, extent.towards) <= half_rad + extent.half_rad + kRounding_rad;
+    }
+
+  private:
+    static constexpr double kRounding_rad = 1e-9;
+    static double angle(const glm::dvec3& a, const glm::dvec3& b) { return 2 * std::asin(std::min(glm::distance(a, b) / 2, 1.0)); }
+    double focal_px_;
+    glm::dvec2 middle_px_;
+};
+
+}  // namespace
 
 Tiles tiles_of(const view::Camera& camera, std::span<const Extent> extents) {
     constexpr int kSide = int(Tiles::kSide_px);
@@ -94,11 +129,13 @@ Tiles tiles_of(const view::Camera& camera, std::span<const Extent> extents) {
     tiles.columns = (camera.width_px + Tiles::kSide_px - 1) / Tiles::kSide_px;
     tiles.rows = (camera.height_px + Tiles::kSide_px - 1) / Tiles::kSide_px;
     tiles.entries.assign(size_t(tiles.columns) * tiles.rows * Tiles::kMost, 0);
+    SquareCones cones(camera);
     for (size_t i = 0; i < extents.size(); ++i) {
         const Extent& extent = extents[i];
         if (extent.left >= extent.right || extent.bottom >= extent.top) continue;
         for (int row = extent.bottom / kSide; row <= (extent.top - 1) / kSide; ++row) {
             for (int column = extent.left / kSide; column <= (extent.right - 1) / kSide; ++column) {
+                if (!cones.meets(extent, column, row)) continue;
                 uint32_t* tile = &tiles.entries[(size_t(row) * tiles.columns + size_t(column)) * Tiles::kMost];
                 uint32_t* room = std::find(tile, tile + Tiles::kMost, 0u);
                 if (room == tile + Tiles::kMost)

@@ -77,6 +77,13 @@ void Target::bind() const {
     bind_for_drawing(drawn_.id(), width_px_, height_px_);
 }
 
+void Target::copy_from(GLuint framebuffer) const {
+    GLint w = GLint(width_px_), h = GLint(height_px_);
+    glDisable(GL_SCISSOR_TEST);
+    glBlitNamedFramebuffer(framebuffer, drawn_.id(), 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
+                           GL_NEAREST);
+}
+
 void Target::resolve() const {
     if (samples_ == 1) return;
     GLint w = GLint(width_px_), h = GLint(height_px_);

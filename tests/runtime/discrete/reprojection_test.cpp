@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "formats/discrete.h"
@@ -106,6 +107,32 @@ TEST(Extent, HoldsWhatIsSeenOfASphere) {
     }
     EXPECT_EQ(extent_of(camera, -9.0 * axes.forward, 2, 0).right, 0);   // behind
     EXPECT_EQ(extent_of(camera, 1.0 * axes.forward, 2, 0).right, 640);  // round the eye
+}
+
+// Every square in which a point of the sphere is seen is held, and its rectangle's corners are not.
+TEST(Tiles, FollowTheOutlineOfASphere) {
+    Cameras cameras;
+    const view::Camera& camera = cameras.new_one;
+    view::Axes axes = view::axes_of(camera);
+    for (double side : {-0.9, -0.3, 0.0, 0.5}) {
+        glm::dvec3 middle = 10.0 * axes.forward + 10 * side * axes.right + 1.0 * axes.up;
+        Extent extent = extent_of(camera, middle, 2, 1), rectangle = extent;
+        rectangle.half_rad = 4;
+        Tiles tiles = tiles_of(camera, std::span(&extent, 1)), all = tiles_of(camera, std::span(&rectangle, 1));
+        for (int i = 0; i < 20000; ++i) {
+            double z = 1 - (i + 0.5) / 10000, turn = i * 2.399963;
+            glm::dvec3 out(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+            glm::dvec3 at = shown(camera, camera.position_m + middle + 2.0 * out);
+            for (glm::dvec2 by : {glm::dvec2(0), glm::dvec2(0.99, -0.99), glm::dvec2(-0.99, 0.99)}) {  // the margin
+                glm::dvec2 px = glm::dvec2(at) + by;
+                if (px.x < 0 || px.y < 0 || px.x >= 640 || px.y >= 480) continue;
+                size_t tile = size_t(px.y) / Tiles::kSide_px * tiles.columns + size_t(px.x) / Tiles::kSide_px;
+                EXPECT_EQ(tiles.entries[tile * Tiles::kMost], 1u) << side << " " << px.x << "," << px.y;
+            }
+        }
+        auto held = [](const Tiles& of) { return std::count(of.entries.begin(), of.entries.end(), 1u); };
+        EXPECT_LT(double(held(tiles)), 0.92 * double(held(all))) << side;
+    }
 }
 
 TEST(Tiles, HoldTheNearestThatMayBeSeenThere) {

@@ -9,7 +9,7 @@
 namespace overlook::measure::paper::fsi {
 namespace {
 
-constexpr std::array<Variation, 15> kVariations = {{
+constexpr std::array<Variation, 16> kVariations = {{
     {"switch", kSwitch, "", "At once.", false},
     {"fsi:paper", kPaper, "", "As printed.", false},
     {"fsi:paper@reproject=0", kPaper, "@reproject=0", "The older buffer is looked up at the same pixel.", false},
@@ -24,6 +24,7 @@ constexpr std::array<Variation, 15> kVariations = {{
     {"fsi@search=0", kOwn, "@search=0", "One lookup in the older buffer, by the newer one's depth.", true},
     {"fsi@suit-grain=0", kOwn, "@suit-grain=0", "The visibility's grain is as it was baked, however far the thing.", true},
     {"fsi@softness=0", kOwn, "@softness=0", "A place appears at once, not over half of the ramp.", true},
+    {"fsi@copy-rest=0", kOwn, "@copy-rest=0", "Two frames are put together in all of the picture, which costs time alone.", true},
     {"fsi@long-ramps=0", kOwn, "@long-ramps=0", "One level's ramp after the other's, as in the paper.", true},
 }};
 
