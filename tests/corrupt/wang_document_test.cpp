@@ -1,4 +1,4 @@
-// That formats/spec/wang_ldi.md says what the code does.
+// That formats/spec/wang_tiles.md says what the code does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace overlook::wang_ldi::fixtures {
 namespace {
 
 std::string document() {
-    return text_of_file(OVERLOOK_SOURCE_DIR "/formats/spec/wang_ldi.md");
+    return text_of_file(OVERLOOK_SOURCE_DIR "/formats/spec/wang_tiles.md");
 }
 
 TEST(GroundDocument, ShowsTheVeryBytesThatTheWriterWrites) {
@@ -24,7 +24,7 @@ TEST(GroundDocument, ShowsTheVeryBytesThatTheWriterWrites) {
     std::string written = text_of_file(folder / "tulips.ovl");
     EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(written)), documented));
 
-    Result<container::Reader> file = container::Reader::open_bytes(documented, "wang_ldi.md");
+    Result<container::Reader> file = container::Reader::open_bytes(documented, "wang_tiles.md");
     ASSERT_TRUE(file) << file.error().message;
     Result<Ground> ground = read(*file);
     ASSERT_TRUE(ground) << ground.error().message;

@@ -13,7 +13,7 @@ using container::fixtures::Bytes;
 using container::fixtures::Fixture;
 
 // Two tiles of 4 m with a tulip at every corner, one on the edges of one colour and one inside: the worked example of
-// formats/spec/wang_ldi.md.
+// formats/spec/wang_tiles.md.
 Ground tulips();
 
 // A file in pieces that can be broken one by one, and put together with right checksums.

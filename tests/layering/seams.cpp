@@ -13,6 +13,7 @@ std::span<const Seam> seams() {
         {"OpenImageIO", {"OpenImageIO/"}, {"tools/bake/image_library.cpp"}},
         {"GeographicLib", {"GeographicLib/"}, {"tools/bake/georeference.cpp"}},
         {"tinygltf", {"tiny_gltf.h"}, {"tools/baked/glb.cpp"}},
+        {"toml++", {"toml++/", "toml.hpp"}, {"tools/bake/wang_ldi/toml_table.cpp"}},
         {"oneTBB", {"tbb/", "oneapi/"}, {"formats/parallel.cpp"}},
         {"zstd", {"zstd.h"}, {"formats/compression.cpp"}},
         {"libspng", {"spng.h"}, {"runtime/gl/png.cpp"}},

@@ -276,7 +276,7 @@ TEST(PaperPlanting, OverlapsNowhereButLeavesVoidsAtCorners) {
 TEST(PaperPlanting, HasAlmostAsManyObjectsInEveryTile) {
     TileSet set = set_of(12);
     PlantOptions options = sunflowers();
-    options.paper_density_per_m2 = 0.5;
+    options.density_per_m2 = 0.5;
     PlantReport report;
     auto planting = plant_as_paper(set, options, report);
     ASSERT_TRUE(planting);

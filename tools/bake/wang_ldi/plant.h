@@ -31,11 +31,10 @@ struct PlantModel {
 struct PlantOptions {
     double tile_size_m = 0;
     std::vector<PlantModel> models;
-    double density_per_m2 = 0;  // of all by weight; 0: as many as have a place
+    double density_per_m2 = 0;  // of all by weight; 0: as many as have a place; of the paper's: stops there
     uint64_t seed = 1;
-    uint32_t candidates = 64;         // plantings that are made, of which the evenest is kept
-    uint32_t tries = 10000;           // of the paper's: at a visit
-    double paper_density_per_m2 = 0;  // of the paper's: stops there; 0: when a whole round has placed nothing
+    uint32_t candidates = 64;  // plantings that are made, of which the evenest is kept
+    uint32_t tries = 10000;    // of the paper's: at a visit
 };
 
 // The greatest packing radius that may stand on an edge; what is planted inside keeps as far from edges. Metres.

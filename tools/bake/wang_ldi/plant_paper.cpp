@@ -23,7 +23,7 @@ class RoundRobin {
     }
 
     Planting run(PlantReport& report) {
-        double wanted = options_.paper_density_per_m2 * size_ * size_ * double(set_.tiles.size());
+        double wanted = options_.density_per_m2 * size_ * size_ * double(set_.tiles.size());
         auto is_enough = [&] { return wanted > 0 && double(objects_) >= wanted; };
         for (bool has_placed = true; has_placed && !is_enough(); ++report.rounds) {
             has_placed = false;
