@@ -8,6 +8,7 @@
 #include "formats/numbers.h"
 #include "formats/terrain.h"
 #include "tools/baked/info_discrete.h"
+#include "tools/baked/info_ground.h"
 #include "tools/baked/verbs.h"
 
 namespace overlook::baked {
@@ -106,7 +107,8 @@ void print_mesh(const ordered_json& m) {
     fmt::print("size: {:.1f} bits a triangle\n", m["bits_per_triangle"].get<double>());
 }
 
-void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain) {
+void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain,
+                const std::optional<wang_ldi::Ground>& ground) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
@@ -133,12 +135,17 @@ void print_text(const ordered_json& json, const std::optional<discrete::Chain>& 
     }
     if (json.contains("mesh")) print_mesh(json["mesh"]);
     if (chain) print_chain(*chain);
+    if (ground) print_ground(*ground);
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
     fmt::print("\n");
     for (const ordered_json& input : p["inputs"])
         fmt::print("from: {} (xxh3-128 {})\n", input["name"].get<std::string>(), input["xxh3_128"].get<std::string>());
+}
+
+Error no_sheet(const std::string& file) {
+    return {Exit::bad_command, fmt::format("{}: there is a sheet of ground of Wang tiles only; leave --sheet out", file)};
 }
 
 }  // namespace
@@ -177,11 +184,22 @@ int info(const InfoArgs& args, const command::Common& common) {
         json["chain"] = ordered_json::parse(chain_json(*read));
         if (!common.json) chain = std::move(*read);
     }
+    std::optional<wang_ldi::Ground> ground;
+    if (file->kind() == wang_ldi::kKind) {
+        auto read = wang_ldi::read(*file);
+        if (!read) return command::fail("baked info", read.error());
+        json["ground"] = ordered_json::parse(ground_json(*read));
+        ground = std::move(*read);
+    }
+    if (!args.sheet.empty()) {
+        if (!ground) return command::fail("baked info", no_sheet(args.file));
+        if (auto written = write_sheet(*ground, args.sheet); !written) return command::fail("baked info", written.error());
+    }
     json["provenance"] = provenance_json(*provenance);
     if (common.json)
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else
-        print_text(json, chain);
+        print_text(json, chain, ground);
     return int(Exit::done);
 }
 

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
 
     CLI::App* info_verb = app.add_subcommand("info", "What is in a file: its sections, its promises, where it came from");
     info_verb->add_option("FILE", info.file, "A baked file")->required();
+    info_verb->add_option("--sheet", info.sheet,
+                          "Of ground of Wang tiles: a folder for pictures of the set, its tilings and its planting");
 
     CLI::App* verify_verb = app.add_subcommand(
         "verify",

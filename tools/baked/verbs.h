@@ -12,6 +12,7 @@ namespace overlook::baked {
 
 struct InfoArgs {
     std::string file;
+    std::string sheet;  // of ground: a folder for pictures of it; empty: none
 };
 struct VerifyArgs {
     std::string file;
