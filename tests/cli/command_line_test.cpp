@@ -38,8 +38,8 @@ const std::vector<Words> kVerbs = {{"bake-lod", "terrain"},
                                    {"reproduce", "lod-sprite"},
                                    {"reproduce", "fsi"},
                                    {"player"}};
-const std::vector<Words> kCommands = {{"bake-lod"}, {"baked"},     {"make-sample"}, {"measure"},
-                                      {"player"},   {"reproduce"}, {"stability"}};
+const std::vector<Words> kCommands = {{"bake-lod"}, {"bake-wang-ldi"}, {"baked"},     {"make-sample"},
+                                      {"measure"},  {"player"},        {"reproduce"}, {"stability"}};
 
 // Of every option and argument something is said: after its name in the column of descriptions, or on the next line.
 void expect_described(const std::string& help) {

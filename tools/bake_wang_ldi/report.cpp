@@ -85,12 +85,13 @@ void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t byte
                   fmt::format("{}: {} tiles, correlation {:.4f} at most; {:.1f} objects a tile, {:.3f} a square metre, {} bytes",
                               args.output, tiles, std::abs(figures.correlation.value), double(objects) / double(tiles),
                               done.plant.density_per_m2, bytes));
-    command::note(
-        common,
-        fmt::format("density {:.2f} at corners, {:.2f} at edges, {:.2f} inside; relative radius {:.3f}; {} tight radii overlap "
-                    "in {} neighbourhoods; {:.2f} more a tile have a place",
-                    figures.zones.corner, figures.zones.edge, figures.zones.inside, figures.relative_radius,
-                    figures.overlaps.tight_overlaps, figures.overlaps.neighbourhoods, figures.more_per_tile));
+    std::string room =
+        done.recipe.plant.density_per_m2 > 0 ? "" : fmt::format("; {:.2f} more a tile have a place", figures.more_per_tile);
+    command::note(common,
+                  fmt::format("density {:.2f} at corners, {:.2f} at edges, {:.2f} inside; relative radius {:.3f}; {} tight radii "
+                              "overlap in {} neighbourhoods{}",
+                              figures.zones.corner, figures.zones.edge, figures.zones.inside, figures.relative_radius,
+                              figures.overlaps.tight_overlaps, figures.overlaps.neighbourhoods, room));
     if (done.search.candidates > 0)
         command::detail(
             common, fmt::format("tiles (north east south west): {}; of {} sets {:.4f} to {:.4f}",

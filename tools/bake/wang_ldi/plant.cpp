@@ -68,14 +68,15 @@ double mean_density(const TileSet& set, const Planting& planting) {
     return double(objects) / double(full.tiles.size()) / (planting.tile_size_m * planting.tile_size_m);
 }
 
-// The least density, as a share of the full one, at which the mean is what is asked for.
+// The density, as a share of the full one, at which the mean is nearest to what is asked for.
 double share_for(const TileSet& set, const PlantOptions& options, const OwnedObjects& owned) {
+    auto mean_at = [&](double share) { return mean_density(set, Assembler(set, options, owned, share).run()); };
     double low = 0, high = 1;
     for (int step = 0; step < 24; ++step) {
         double middle = (low + high) / 2;
-        (mean_density(set, Assembler(set, options, owned, middle).run()) < options.density_per_m2 ? low : high) = middle;
+        (mean_at(middle) < options.density_per_m2 ? low : high) = middle;
     }
-    return high;
+    return options.density_per_m2 - mean_at(low) < mean_at(high) - options.density_per_m2 ? low : high;
 }
 
 }  // namespace
@@ -94,14 +95,14 @@ Result<Planting> plant(const TileSet& set, const PlantOptions& options, PlantRep
         if (options.density_per_m2 > 0 && full >= options.density_per_m2)
             planting = Assembler(set, options, owned, share_for(set, options, owned)).run();
         double unevenness = unevenness_of(set, planting, edge_reach_m(options));
-        bool is_met = mean_density(set, planting) >= options.density_per_m2;
+        bool is_met = full >= options.density_per_m2;
         if (full > report.full_density_per_m2) report.full_density_per_m2 = full;
         if (!is_met || unevenness >= least) continue;
         least = unevenness, report.kept = attempt, report.density_per_m2 = mean_density(set, planting);
         best = std::move(planting);
     }
     if (best.tiles.empty())
-        return bad_input("density_per_m2: {:g} plants a square metre do not fit; {:.4g} do, {:.4g} on a tile of {:g} m",
+        return bad_input("density_per_m2: {:g} a square metre do not fit; {:.4g} do, {:.4g} on a tile of {:g} m",
                          options.density_per_m2, report.full_density_per_m2,
                          report.full_density_per_m2 * options.tile_size_m * options.tile_size_m, options.tile_size_m);
     return best;
