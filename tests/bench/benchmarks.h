@@ -14,6 +14,8 @@ void add_view();
 void add_bake_mesh(uint32_t side);
 // side: of a grid of hills of 2 * side * side triangles.
 void add_caveclod(uint32_t side);
+// side: of a tiling of side * side tiles.
+void add_wang(uint32_t side);
 // side_px: of the pictures.
 void add_numbers(uint32_t side_px);
 
