@@ -13,7 +13,7 @@ namespace overlook::sample {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-constexpr double kCovered = 0.45;  // of the field by discs: all find a place
+constexpr double kCovered = 0.5;  // of the field by discs: all find a place
 constexpr double kStep_s = 1.0 / 32;
 constexpr double kMargin = 1.3;  // the hills are so much larger than the field
 

@@ -17,7 +17,7 @@
 namespace overlook::sample {
 namespace {
 
-constexpr double kCovered = 0.5;
+constexpr double kCovered = 0.6;
 constexpr double kPi = 3.141592653589793;
 
 double up_to_mm(double m) {
@@ -34,7 +34,7 @@ Result<PlantSet> sunflowers(uint64_t seed) {
         Sunflower sunflower = sunflower_of(seed, i);
         mesh::Mesh mesh = sunflower_mesh(sunflower, hash_of(seed, 101, uint64_t(i)), sunflower.has_leaf_cards ? *cards : *cut);
         // A field's heads all look the way of the morning's sun.
-        set.plants.push_back({fmt::format("sunflower-{:02}.glb", i), std::move(mesh), 1, 0.92, 1.04, -35, 35});
+        set.plants.push_back({fmt::format("sunflower-{:02}.glb", i), std::move(mesh), 1, 0.92, 1.04, 0, 40});
     }
     return set;
 }

@@ -37,8 +37,9 @@ double tight_radius_m(const mesh::Mesh& mesh);
 // The same and a little more: discs of it are not to overlap.
 double packing_radius_m(const Plant& plant);
 
-// What bake-wang-ldi is to make of the set: each model with its radii, and a tile of which per_tile of them cover half, so that
-// there is room for them: discs thrown at random jam at 0.547 of the area (J. Feder, Random Sequential Adsorption, 1980).
+// What bake-wang-ldi is to make of the set: each model with its radii, and a tile of which the packing discs of per_tile of them
+// cover 0.6. (Discs thrown at random jam at 0.547: J. Feder, Random Sequential Adsorption, 1980. Planted where there is room,
+// more fit.)
 std::string plant_recipe(const PlantSet& set, uint64_t seed);
 
 struct PlantOptions {
