@@ -56,7 +56,8 @@ void add_leaf(PlantMaker& maker, const Tuft& tuft, uint32_t i, uint32_t count, D
     if (most_m > tuft.reach_m) spine = Spine(foot, length_m * tuft.reach_m / most_m, 16, turn);
     double wide_m = dice.between(0.0024, 0.0044) * (0.7 + tuft.height_m);
     uint32_t strip = dice.unit() < tuft.dry ? 5 + dice.below(2) : dice.below(5);
-    Blade blade{5, 2, {}, {}, {}, {}};
+    // Every third one is keeled.
+    Blade blade{5, i % 3 == 0 ? 2u : 1u, {}, {}, {}, {}};
     set_strip(blade, strip, 0.01, 0.99);
     blade.half_width_m = [=](double s) { return wide_m * std::max(0.06, (0.75 + 0.5 * s) * std::pow(1 - s, 0.55)); };
     blade.lift_m = [=](double a, double s) { return 0.55 * wide_m * std::abs(a) * (1 - s); };
@@ -67,8 +68,12 @@ void add_leaf(PlantMaker& maker, const Tuft& tuft, uint32_t i, uint32_t count, D
 void add_culm(PlantMaker& maker, const Tuft& tuft, bool is_spike, Dice& dice) {
     double angle = dice.between(0, kTurn_rad), lean = 0.5 * tuft.lean_rad * dice.between(0.3, 1.2), bend = dice.between(0.2, 0.8);
     double length_m = tuft.height_m * dice.between(1.15, 1.5), thick_m = dice.between(0.0008, 0.0013);
-    Spine culm(foot_in(tuft, 0.4, angle, lean), length_m, 20,
-               [&](double s, const Frame& frame) { return droop(frame, 2 * bend * s); });
+    auto grown = [&] {
+        return Spine(foot_in(tuft, 0.4, angle, lean), length_m, 20,
+                     [&](double s, const Frame& frame) { return droop(frame, 2 * bend * s); });
+    };
+    Spine culm = grown();
+    while (farthest_m(culm) > 1.1 * tuft.reach_m) lean *= 0.7, bend *= 0.7, culm = grown();
     uint32_t strip = dice.unit() < 0.5 ? kStraw : 4;
     Stalk stalk{9,
                 3,
@@ -115,7 +120,7 @@ mesh::Mesh grass_mesh(uint64_t seed, int number, const std::vector<mesh::Surface
     double place = (number * 4 % kGrasses + dice.unit()) / kGrasses;
     Tuft tuft{0.15 + 0.27 * place, dice.between(0.03, 0.055), dice.between(0.45, 0.9), 0, 0.09 + 0.08 * place};
     tuft.dry = dice.between(0.03, 0.25);
-    uint32_t count = 28 + dice.below(13);
+    uint32_t count = 44 + dice.below(19);
     for (uint32_t i = 0; i < count; ++i) add_leaf(maker, tuft, i, count, dice);
     if (number % 3 == 0) {
         uint32_t culms = 1 + dice.below(2);

@@ -132,13 +132,18 @@ int main(int argc, char** argv) {
     }
 
     std::vector<CLI::App*> plants;
+    sample::PlantOptions plant_options;
     for (const auto& [name, what] :
          {std::pair("sunflowers", "11 sunflowers of 35,000 triangles: sunflower-00.glb to sunflower-10.glb"),
           std::pair("grass",
                     "A meadow: grass-00.glb to grass-14.glb, dandelion-00.glb to -08.glb, buttercup-00.glb to -14.glb")}) {
-        plants.push_back(app.add_subcommand(
-            name, std::string("Plants of the paper on tiled layered depth images. ") + what + ", recipe.toml, README.md"));
+        plants.push_back(app.add_subcommand(name, std::string("Plants of the paper on tiled layered depth images. ") + what +
+                                                      ", recipe.toml, hills.glb, scene.json, flight.json, README.md"));
         plants.back()->add_option("-o,--output", folder, "Folder to write into")->required();
+        plants.back()
+            ->add_option("--count", plant_options.count, "How many stand in the scene")
+            ->check(CLI::Range(1, 100000))
+            ->capture_default_str();
         command::add_common(*plants.back(), common, command::Uses::seed);
     }
 
@@ -166,9 +171,11 @@ int main(int argc, char** argv) {
             crowd_options.seed = common.seed;
             return say_files(crowd->get_name(), sample::make_instances(crowd->get_name(), crowd_options, folder), common);
         }
-        for (const CLI::App* plant : plants)
-            if (plant->parsed())
-                return say_files(plant->get_name(), sample::make_plants(plant->get_name(), common.seed, folder), common);
+        for (const CLI::App* plant : plants) {
+            if (!plant->parsed()) continue;
+            plant_options.seed = common.seed;
+            return say_files(plant->get_name(), sample::make_plants(plant->get_name(), plant_options, folder), common);
+        }
         for (const CLI::App* object : objects)
             if (object->parsed()) return say_files(object->get_name(), sample::make_object(object->get_name(), folder), common);
         for (const CLI::App* terrain : terrains)

@@ -14,7 +14,7 @@ Result<std::vector<mesh::Surface>> dandelion_surfaces(uint64_t seed);
 Result<std::vector<mesh::Surface>> buttercup_surfaces(uint64_t seed);
 
 // The model of a number, its foot at the origin. Same seed, same mesh.
-// A tuft of 28 to 40 bent blades, 0.1 to 0.6 m high, every third one with ears.
+// A tuft of 44 to 62 bent blades, 0.1 to 0.6 m high, every third one with ears.
 mesh::Mesh grass_mesh(uint64_t seed, int number, const std::vector<mesh::Surface>& surfaces);
 // A rosette of toothed leaves; buds, yellow heads and, on every third one, globes of fruits with parachutes on masked cards.
 mesh::Mesh dandelion_mesh(uint64_t seed, int number, const std::vector<mesh::Surface>& surfaces);

@@ -11,20 +11,17 @@
 #include "tools/make_sample/glb.h"
 #include "tools/make_sample/meadow.h"
 #include "tools/make_sample/noise.h"
+#include "tools/make_sample/plant_field.h"
 #include "tools/make_sample/sunflower.h"
 
 namespace overlook::sample {
 namespace {
 
-constexpr double kCovered = 0.5;
+constexpr double kCovered = 0.6;
 constexpr double kPi = 3.141592653589793;
 
 double up_to_mm(double m) {
     return std::ceil(m * 1000) / 1000;
-}
-
-double packing_radius_m(const Plant& plant) {
-    return up_to_mm(1.08 * tight_radius_m(plant.mesh));
 }
 
 Result<PlantSet> sunflowers(uint64_t seed) {
@@ -37,7 +34,7 @@ Result<PlantSet> sunflowers(uint64_t seed) {
         Sunflower sunflower = sunflower_of(seed, i);
         mesh::Mesh mesh = sunflower_mesh(sunflower, hash_of(seed, 101, uint64_t(i)), sunflower.has_leaf_cards ? *cards : *cut);
         // A field's heads all look the way of the morning's sun.
-        set.plants.push_back({fmt::format("sunflower-{:02}.glb", i), std::move(mesh), 1, 0.92, 1.04, -35, 35});
+        set.plants.push_back({fmt::format("sunflower-{:02}.glb", i), std::move(mesh), 1, 0.92, 1.04, 0, 40});
     }
     return set;
 }
@@ -68,13 +65,13 @@ Result<PlantSet> meadow(uint64_t seed) {
     return set;
 }
 
-std::string readme_of(const std::string& name, const PlantSet& set) {
+std::string readme_of(const std::string& name, const PlantSet& set, uint32_t count) {
     std::string text = fmt::format(
         "# {}\n\nPlants to be planted on tiles, as recipe.toml says; about {:g} on each. Metres; the foot at the origin.\n\n"
-        "One of them alone:\n\n    bake-lod mesh {} -o plant.ovl\n    player plant.ovl\n\n| model | triangles | high, m | from "
-        "its "
-        "foot, m |\n|---|---|---|---|\n",
-        name, set.per_tile, set.plants[0].file);
+        "{} of them on hills, drawn as chains of levels:\n\n    for model in *.glb; do bake-lod discrete $model -o "
+        "${{model%.glb}}.ovl; done\n    player scene.json --flight flight.json\n\n"
+        "| model | triangles | high, m | from its foot, m |\n|---|---|---|---|\n",
+        name, set.per_tile, count);
     for (const Plant& plant : set.plants) {
         double top_m = 0;
         for (const glm::vec3& at : plant.mesh.positions_m) top_m = std::max(top_m, double(at.z));
@@ -94,6 +91,10 @@ double tight_radius_m(const mesh::Mesh& mesh) {
     double most_m = 0;
     for (const glm::vec3& at : mesh.positions_m) most_m = std::max(most_m, std::hypot(double(at.x), double(at.y)));
     return up_to_mm(most_m);
+}
+
+double packing_radius_m(const Plant& plant) {
+    return up_to_mm(1.08 * tight_radius_m(plant.mesh));
 }
 
 std::string plant_recipe(const PlantSet& set, uint64_t seed) {
@@ -116,26 +117,31 @@ std::string plant_recipe(const PlantSet& set, uint64_t seed) {
     return text;
 }
 
-Result<std::vector<std::string>> make_plants(const std::string& name, uint64_t seed, const std::string& folder) {
-    Result<PlantSet> set = plant_set(name, seed);
+Result<std::vector<std::string>> make_plants(const std::string& name, const PlantOptions& options, const std::string& folder) {
+    Result<PlantSet> set = plant_set(name, options.seed);
     if (!set) return tl::unexpected(set.error());
+    PlantField field = plant_field(*set, options.count, options.seed);
+    Result<GlbNode> hills = hills_of(field, name == "sunflowers" ? 0.5 : 0.95, options.seed);
+    if (!hills) return tl::unexpected(hills.error());
     std::error_code reason;
     std::filesystem::create_directories(folder, reason);
     if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
 
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const Plant& plant : set->plants)
+        files.emplace_back(plant.file,
+                           glb_text({{plant.file.substr(0, plant.file.find('.')), plant.mesh, {0, 0, 0}, {0, 0, 0}}}, 0));
+    files.emplace_back("recipe.toml", plant_recipe(*set, options.seed));
+    files.emplace_back("hills.glb", glb_text({*hills}, 0));
+    files.emplace_back("scene.json", scene_of_field(*set, field));
+    files.emplace_back("flight.json", scene::json_from_flight(flight_of_field(field, name == "sunflowers" ? 1.75 : 0.8)));
+    files.emplace_back("README.md", readme_of(name, *set, options.count));
     std::vector<std::string> paths;
-    auto write = [&](const std::string& file, const std::string& text) {
+    for (const auto& [file, text] : files) {
         paths.push_back((std::filesystem::path(folder) / file).string());
-        return write_file(paths.back(), std::string_view(text));
-    };
-    for (const Plant& plant : set->plants) {
-        std::string node = plant.file.substr(0, plant.file.find('.'));
-        if (auto written = write(plant.file, glb_text({{node, plant.mesh, {0, 0, 0}, {0, 0, 0}}}, 0)); !written)
+        if (Result<void> written = write_file(paths.back(), std::string_view(text)); !written)
             return tl::unexpected(written.error());
     }
-    for (const auto& [file, text] :
-         {std::pair<std::string, std::string>("recipe.toml", plant_recipe(*set, seed)), {"README.md", readme_of(name, *set)}})
-        if (auto written = write(file, text); !written) return tl::unexpected(written.error());
     return paths;
 }
 

@@ -34,12 +34,22 @@ Result<PlantSet> plant_set(const std::string& name, uint64_t seed);
 // The farthest that any of it is from the axis through its foot.
 double tight_radius_m(const mesh::Mesh& mesh);
 
-// What bake-wang-ldi is to make of the set: each model with its radii, and a tile of which per_tile of them cover half, so that
-// there is room for them: discs thrown at random jam at 0.547 of the area (J. Feder, Random Sequential Adsorption, 1980).
+// The same and a little more: discs of it are not to overlap.
+double packing_radius_m(const Plant& plant);
+
+// What bake-wang-ldi is to make of the set: each model with its radii, and a tile of which the packing discs of per_tile of them
+// cover 0.6. (Discs thrown at random jam at 0.547: J. Feder, Random Sequential Adsorption, 1980. Planted where there is room,
+// more fit.)
 std::string plant_recipe(const PlantSet& set, uint64_t seed);
 
-// Writes the models (GLB), recipe.toml and README.md into a folder, which it makes where there is none, and returns their paths.
+struct PlantOptions {
+    uint64_t seed = 1;
+    uint32_t count = 7000;  // of plants in the scene, 1..100000: as many as the paper's viewer sees at once
+};
+
+// Writes into a folder, which it makes where there is none, and returns the paths: the models (GLB), recipe.toml, README.md with
+// the commands, and for drawing them as geometry hills.glb, scene.json (of the chains of levels baked beside it) and flight.json.
 // Fails with Exit::cannot_write.
-Result<std::vector<std::string>> make_plants(const std::string& name, uint64_t seed, const std::string& folder);
+Result<std::vector<std::string>> make_plants(const std::string& name, const PlantOptions& options, const std::string& folder);
 
 }  // namespace overlook::sample

@@ -70,7 +70,7 @@ Sunflower sunflower_of(uint64_t seed, int number) {
 mesh::Mesh sunflower_mesh(const Sunflower& sunflower, uint64_t seed, const std::vector<mesh::Surface>& surfaces) {
     Dice dice(seed);
     PlantMaker maker(surfaces);
-    double heading = dice.between(-0.35, 0.35);
+    double heading = -kFieldTurn_rad / 2 + dice.between(-0.35, 0.35);
     glm::dvec3 facing(std::sin(heading), -std::cos(heading), 0);
     Sway sway{dice.between(0.10, 0.22), 0, 0};
     sway.phase = dice.unit(), sway.heading_rad = dice.between(0, kTurn_rad);

@@ -28,7 +28,9 @@ struct Sunflower {
 // The model of a number, 0..kSunflowers - 1: heights of 1.5..2.3 m, ages and tilts spread over all they may be.
 Sunflower sunflower_of(uint64_t seed, int number);
 
-// Its foot at the origin, its head to the south. Same traits and seed, same mesh.
+constexpr double kFieldTurn_rad = 0.6981317007977318;  // 40 degrees
+// Its foot at the origin. Turned by 0 to kFieldTurn_rad, counter-clockwise seen from above, heads look south, as in a field. Same
+// traits and seed, same mesh.
 mesh::Mesh sunflower_mesh(const Sunflower& sunflower, uint64_t seed, const std::vector<mesh::Surface>& surfaces);
 
 // Parts: the head on the end of the stem, `neck`, of a radius; its disc florets are as many as fill up to kSunflowerTriangles.

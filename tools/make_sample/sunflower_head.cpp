@@ -40,23 +40,26 @@ Head head_of(const Sunflower& sunflower, const Frame& neck) {
     return head;
 }
 
-// From the stem's end round to the disc's rim, and under the florets.
+// From the stem's end round to the disc's rim, and under the florets: one closed skin.
 void add_receptacle(PlantMaker& maker, const Head& head, double neck_radius_m) {
+    constexpr double kRim = 1.04;
+    auto at_m = [&](double radius, double up, double round) {
+        return head.frame.at_m + head.radius_m * (radius * head.outward(kTurn_rad * round) + up * head.frame.along);
+    };
     maker.add_round(kStem, kBackRows, kHeadSides, [&](uint32_t row, uint32_t side) {
         double share = double(row) / kBackRows, round = double(side) / kHeadSides;
-        double radius = glm::mix(neck_radius_m / head.radius_m, 1.04, std::sin(1.5708 * std::pow(share, 0.9)));
-        double up = -0.5 + 0.5 * std::pow(share, 2.6);
-        return Place{head.frame.at_m + head.radius_m * (radius * head.outward(kTurn_rad * round) + up * head.frame.along),
-                     {0.1 + 0.8 * (1 - std::abs(2 * round - 1)), 0.9 + 0.08 * share}};
+        double radius = glm::mix(neck_radius_m / head.radius_m, kRim, std::sin(kTurn_rad / 4 * std::pow(share, 0.9)));
+        glm::dvec2 uv(0.1 + 0.8 * (1 - std::abs(2 * round - 1)), 0.9 + 0.08 * share);
+        return Place{row == kBackRows ? at_m(kRim, 0, round) : at_m(radius, -0.5 + 0.5 * std::pow(share, 2.6), round), uv};
     });
     auto floor = [&](double r, double round) {
-        return Place{head.on_disc_m(r, kTurn_rad * round) - head.frame.along * (0.05 * head.radius_m),
-                     {0.02 + 0.93 * r, head.age_v(0.1)}};
+        glm::dvec3 below_m = head.on_disc_m(r, kTurn_rad * round) - head.frame.along * (0.05 * head.radius_m);
+        return Place{r == kRim ? at_m(kRim, 0, round) : below_m, {0.02 + 0.93 * r, head.age_v(0.1)}};
     };
     maker.add_round(
         kDisc, kFloorRows, kHeadSides,
         [&](uint32_t row, uint32_t side) {
-            return floor(1.04 * (1 - double(row) / (kFloorRows + 1)), double(side) / kHeadSides);
+            return floor(row == 0 ? kRim : 1 - (row - 0.5) / kFloorRows, double(side) / kHeadSides);
         },
         floor(0, 0));
 }
