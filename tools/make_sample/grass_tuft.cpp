@@ -27,6 +27,12 @@ Frame foot_in(const Tuft& tuft, double out_share, double angle, double lean_rad)
                     std::cos(lean_rad) * -out + std::sin(lean_rad) * up);
 }
 
+double lowest_m(const Spine& spine) {
+    double least_m = spine.at(0).at_m.z;
+    for (int i = 1; i <= 16; ++i) least_m = std::min(least_m, spine.at(i / 16.0).at_m.z);
+    return least_m;
+}
+
 // From the axis through the tuft's foot.
 double farthest_m(const Spine& spine) {
     double most_m = 0;
@@ -52,6 +58,7 @@ void add_leaf(PlantMaker& maker, const Tuft& tuft, uint32_t i, uint32_t count, D
         return droop(frame, bend * 2 * s + kink - lifts) + frame.along * twist + frame.face * swing;
     };
     Spine spine(foot, length_m, 16, turn);
+    while (lowest_m(spine) < foot.at_m.z) bend *= 0.7, break_rad *= 0.5, spine = Spine(foot, length_m, 16, turn);
     double most_m = farthest_m(spine);
     if (most_m > tuft.reach_m) spine = Spine(foot, length_m * tuft.reach_m / most_m, 16, turn);
     double wide_m = dice.between(0.0024, 0.0044) * (0.7 + tuft.height_m);
