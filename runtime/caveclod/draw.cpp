@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <utility>
 
+#include "formats/srgb.h"
 #include "runtime/caveclod/draw_shaders.h"
 #include "runtime/gl/background.h"
 #include "runtime/gl/png.h"
@@ -38,8 +39,7 @@ gl::TriangleRange take_from(gl::TriangleRange& range, uint64_t face_count) {
 }
 
 float linear_of(uint8_t encoded) {
-    double value = encoded / 255.0;
-    return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    return float(linear_from_srgb(encoded / 255.0));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "formats/srgb.h"
 #include "runtime/discrete/draw_shaders.h"
 #include "runtime/discrete/visibility.h"
 #include "runtime/gl/background.h"
@@ -33,8 +34,7 @@ struct PackedVisibility {
 };
 
 float linear_of(uint8_t encoded) {
-    double value = encoded / 255.0;
-    return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    return float(linear_from_srgb(encoded / 255.0));
 }
 
 template <class T>

@@ -154,7 +154,8 @@ TEST(GltfMesh, TextureSetTransformImageAndMaterialAreKept) {
                                             positions, set0, set1)))));
     const Surface& surface = mesh.mesh.surfaces[0];
     EXPECT_EQ(surface.name, "brick");
-    EXPECT_EQ(surface.base_colour, glm::vec4(1, 0.5f, 0, 1));
+    EXPECT_NEAR(surface.base_colour.g, 0.7354, 1e-4);  // half of the light
+    EXPECT_EQ(glm::vec4(surface.base_colour.r, 0, surface.base_colour.b, surface.base_colour.a), glm::vec4(1, 0, 0, 1));
     EXPECT_EQ(surface.texture, "image-0.png");
     EXPECT_EQ(std::string(surface.texture_bytes.begin(), surface.texture_bytes.end()), "PNG bytes");
     EXPECT_TRUE(surface.is_alpha_masked && surface.is_two_sided);
@@ -162,6 +163,22 @@ TEST(GltfMesh, TextureSetTransformImageAndMaterialAreKept) {
     EXPECT_EQ(mesh.mesh.uvs[mesh.mesh.face_uvs[0][1]], glm::vec2(2.5f, 0));
     EXPECT_EQ(mesh.mesh.uvs[mesh.mesh.face_uvs[0][2]], glm::vec2(0.5f, 3));
     EXPECT_EQ(mesh.mesh.uvs2, (std::vector<glm::vec2>{{9, 9}}));
+}
+
+TEST(GltfMesh, ColoursAreLightInTheFileAndEncodedHere) {
+    const ScratchFolder folder;
+    GltfMaker maker;
+    const int positions = maker.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3),
+              colours = maker.floats({0, 0.5f, 1, 0.5f, 2, -1, 0.25f, 1, 0.0021f, 0.5f, 0.5f, 0}, "VEC4", 4);
+    const MeshFile mesh = open_as_it_stands(write_file(
+        folder, "a.glb",
+        maker.glb(one_primitive(fmt::format(R"("attributes":{{"POSITION":{},"COLOR_0":{}}})", positions, colours)))));
+    ASSERT_EQ(mesh.mesh.face_colours.size(), 1u);
+    auto colour = [&](size_t corner) { return mesh.mesh.colours[mesh.mesh.face_colours[0][corner]]; };
+    using Bytes4 = std::array<uint8_t, 4>;
+    EXPECT_EQ(colour(0), (Bytes4{0, 188, 255, 128}));
+    EXPECT_EQ(colour(1), (Bytes4{255, 0, 137, 255}));
+    EXPECT_EQ(colour(2), (Bytes4{7, 188, 188, 0}));
 }
 
 TEST(GltfMesh, BuffersMayLieBesideOrInADataUri) {

@@ -17,7 +17,7 @@ constexpr uint32_t kNone = 0xffffffff;
 // What a face looks like: a material of the file. Its number is CAVECLOD's surface identifier.
 struct Surface {
     std::string name;                    // the file's own, or ""
-    glm::vec4 base_colour{1, 1, 1, 1};   // red, green, blue, opacity, each 0..1
+    glm::vec4 base_colour{1, 1, 1, 1};   // red, green, blue (sRGB-encoded), opacity, each 0..1
     std::string texture;                 // bare file name of the colour texture, or ""
     std::vector<uint8_t> texture_bytes;  // that picture's file (PNG, JPEG, ...), embedded or beside the mesh: with the first
                                          // surface of this texture name only; none if it is missing
@@ -51,7 +51,7 @@ struct Mesh {
     std::vector<Corners> face_uvs;
     std::vector<glm::vec2> uvs2;  // second set
     std::vector<Corners> face_uvs2;
-    std::vector<std::array<uint8_t, 4>> colours;  // red, green, blue, opacity
+    std::vector<std::array<uint8_t, 4>> colours;  // red, green, blue (sRGB-encoded), opacity
     std::vector<Corners> face_colours;
 
     // [P], or empty where nothing was cut. Positions that were one point of the source before repair cut sheets apart there carry

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/srgb.h"
+
 namespace overlook::relief {
 namespace {
 
 double decode(uint8_t value) {
-    double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    return overlook::linear_from_srgb(value / 255.0);
 }
 
 Colour blend(const Colour& a, const Colour& b, double share) {
@@ -23,10 +24,7 @@ double ramp(double from, double to, double x) {
 // Linear light from 8-bit sRGB values; element i is the linear value half way between i and i + 1.
 std::array<double, 255> make_thresholds() {
     std::array<double, 255> thresholds{};
-    for (size_t i = 0; i < thresholds.size(); ++i) {
-        double v = (double(i) + 0.5) / 255;
-        thresholds[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    }
+    for (size_t i = 0; i < thresholds.size(); ++i) thresholds[i] = overlook::linear_from_srgb((double(i) + 0.5) / 255);
     return thresholds;
 }
 

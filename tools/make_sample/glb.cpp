@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "formats/srgb.h"
+
 namespace overlook::sample {
 namespace {
 
@@ -97,7 +99,8 @@ class GlbMaker {
 
     void add_material(const mesh::Surface& surface) {
         const glm::vec4& c = surface.base_colour;
-        ordered_json shading{{"baseColorFactor", {c.r, c.g, c.b, c.a}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
+        auto linear = [](float encoded) { return float(linear_from_srgb(encoded)); };
+        ordered_json shading{{"baseColorFactor", {linear(c.r), linear(c.g), linear(c.b), c.a}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
         if (!surface.texture_bytes.empty()) {
             const auto* bytes = reinterpret_cast<const char*>(surface.texture_bytes.data());
             size_t view = add_view(std::string(bytes, surface.texture_bytes.size()));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "formats/parallel.h"
+#include "formats/srgb.h"
 
 namespace overlook::measure {
 namespace {
@@ -20,14 +21,6 @@ const std::array<double, 256>& linear_table() {
 }
 
 }  // namespace
-
-double linear_from_srgb(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double srgb_from_linear(double linear) {
-    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
 
 Frame captured(const gl::Target& colour, const gl::Target& middle, const view::Camera& camera) {
     assert(colour.width_px() == middle.width_px() && colour.height_px() == middle.height_px() && middle.samples() == 1);

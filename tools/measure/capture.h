@@ -14,10 +14,6 @@ Frame captured(const gl::Target& colour, const gl::Target& middle, const view::C
 // The red channel, [height, width] top row first.
 std::vector<uint8_t> mask_of(const gl::Target& target);
 
-// A channel 0..1 of what pictures hold and of light (IEC 61966-2-1).
-double linear_from_srgb(double encoded);
-double srgb_from_linear(double linear);
-
 // Averages blocks of factor x factor pixels in linear light. width and height must be multiples of factor >= 1.
 ImageRgb8 box_filtered(const ImageRgb8& image, uint32_t factor);
 

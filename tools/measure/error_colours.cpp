@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/srgb.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -30,7 +32,7 @@ bool is_in_gamut(const Colour& linear) {
 
 uint8_t encoded(double linear) {
     double c = std::clamp(linear, 0.0, 1.0);
-    double srgb = c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+    double srgb = srgb_from_linear(c);
     return uint8_t(std::lround(255 * srgb));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "formats/srgb.h"
 #include "tools/bake/mesh/gltf_document.h"
 #include "tools/bake/mesh/gltf_json.h"
 
@@ -60,7 +61,10 @@ std::vector<Material> read_materials(const Json& root, size_t image_count, Value
         surface.name = values.text(o, "name");
         double colour[4] = {1, 1, 1, 1};
         (void)values.numbers(shading, "baseColorFactor", colour, 4, at + "/pbrMetallicRoughness");
-        for (int k = 0; k < 4; ++k) surface.base_colour[k] = float(std::fmin(std::fmax(colour[k], 0.0), 1.0));
+        for (int k = 0; k < 4; ++k) {
+            double linear = std::fmin(std::fmax(colour[k], 0.0), 1.0);
+            surface.base_colour[k] = float(k < 3 ? srgb_from_linear(linear) : linear);
+        }
         surface.is_alpha_masked = values.text(o, "alphaMode") == "MASK";
         surface.alpha_cutoff = float(values.number(o, "alphaCutoff", 0.5, at));
         surface.is_two_sided = values.boolean(o, "doubleSided");

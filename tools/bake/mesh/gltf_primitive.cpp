@@ -1,5 +1,6 @@
 // Primitives of glTF files. Source: glTF 2.0 Specification, sections 3.7.2 (attributes) and 3.7.2.1 (modes).
 
+#include "formats/srgb.h"
 #include "tools/bake/mesh/gltf_primitive.h"
 
 #include <algorithm>
@@ -162,7 +163,8 @@ void PrimitiveReader::gather(const Sources& sources, Triangles& triangles) {
         if (sources.uv2.exists()) triangles.uvs2.emplace_back(glm::dvec2(sources.uv2[vertex]));
         if (!sources.colour.exists()) return;
         const glm::dvec4 c = sources.colour[vertex];
-        triangles.colours.push_back({byte_from_unit(c.r), byte_from_unit(c.g), byte_from_unit(c.b), byte_from_unit(c.a)});
+        auto encoded = [](double linear) { return byte_from_unit(srgb_from_linear(std::clamp(linear, 0.0, 1.0))); };
+        triangles.colours.push_back({encoded(c.r), encoded(c.g), encoded(c.b), byte_from_unit(c.a)});
     };
     for (Corners& face : triangles.faces)
         for (uint32_t& vertex : face) {

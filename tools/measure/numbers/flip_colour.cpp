@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "formats/srgb.h"
+
 namespace overlook::measure {
 namespace {
 
@@ -74,7 +76,7 @@ std::array<float, 256> linear_table() {
     std::array<float, 256> table;
     for (size_t v = 0; v < 256; ++v) {
         double encoded = double(v) / 255;
-        table[v] = float(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+        table[v] = float(linear_from_srgb(encoded));
     }
     return table;
 }

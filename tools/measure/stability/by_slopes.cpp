@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/srgb.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/numbers/percentiles.h"
 #include "tools/measure/reuse_truth.h"
