@@ -7,7 +7,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kMostBlock = 4;
+constexpr uint32_t kMostBlock = 4, kMostFills = 64;
 constexpr uint64_t kMostBorders = uint64_t(1) << 20;
 enum Stream : uint64_t { kCorner = 1, kHorizontal, kVertical, kOrder, kVariant };
 
@@ -26,24 +26,35 @@ struct BlockFiller {
     uint64_t order_seed = 0;
     std::array<uint32_t, kMostBlock * kMostBlock> placed{};
 
-    bool fill(uint32_t cell = 0) {
-        if (cell == side * side) return true;
+    // Stops at the fill after `skip` others; false if there are no more than that.
+    bool fill(uint32_t& skip, uint32_t cell = 0) {
+        if (cell == side * side) return skip-- == 0;
         uint32_t x = cell % side, y = cell / side;
         uint8_t below = y == 0 ? south[x] : tiling.prototiles_[placed[cell - side]].north;
         uint8_t before = x == 0 ? west[y] : tiling.prototiles_[placed[cell - 1]].east;
         const std::vector<uint32_t>& fitting = tiling.fits_south_west_[below * tiling.vertical_.size() + before];
         auto count = uint32_t(fitting.size());
-        uint32_t first = count == 0 ? 0 : below_of(mixed(order_seed + cell), count);
+        uint32_t first = count == 0 ? 0 : wang_ldi::below(mixed(order_seed + cell), count);
         for (uint32_t i = 0; i < count; ++i) {
             placed[cell] = fitting[(first + i) % count];
             const Tile& tile = tiling.prototiles_[placed[cell]];
             if (x + 1 == side && tile.east != east[y]) continue;
             if (y + 1 == side && tile.north != north[x]) continue;
-            if (fill(cell + 1)) return true;
+            if (fill(skip, cell + 1)) return true;
         }
         return false;
     }
-    static uint32_t below_of(uint64_t hash, uint32_t count) { return wang_ldi::below(hash, count); }
+    bool fill_first() {
+        uint32_t skip = 0;
+        return fill(skip);
+    }
+    // One of all fills, each as likely as the others; of more than kMostFills one of the first.
+    void fill_any() {
+        uint32_t rest = kMostFills;
+        uint32_t fills = fill(rest) ? kMostFills : kMostFills - rest;
+        uint32_t skip = wang_ldi::below(mixed(order_seed), fills);
+        fill(skip);
+    }
 
     // Whether every border of `block` can be filled; of more borders than can be tried: no.
     static bool fills_every_border(const RandomTiling& tiling, uint32_t block) {
@@ -65,7 +76,7 @@ struct BlockFiller {
                  : i < 3 * block ? filler.west
                                  : filler.east)[i % block] = colour;
             }
-            if (!filler.fill()) return false;
+            if (!filler.fill_first()) return false;
         }
         return true;
     }
@@ -142,7 +153,7 @@ uint32_t RandomTiling::prototile(int64_t x, int64_t y) const {
         filler.west[i] = vertical_edge(left, bottom + i), filler.east[i] = vertical_edge(left + side, bottom + i);
     }
     filler.order_seed = hash_of(seed_, kOrder, left, bottom);
-    filler.fill();
+    block_ == 1 ? void(filler.fill_first()) : filler.fill_any();
     return filler.placed[size_t(y - bottom) * block_ + size_t(x - left)];
 }
 

@@ -29,9 +29,9 @@ struct SetOptions {
     std::vector<float> corner_density{1, 1};
     // Adds a bare corner, and tiles for where the planting ends: any ground's border can be followed.
     bool has_borders = false;
-    uint32_t variants = 1;       // of each prototile
-    uint64_t seed = 1;           // of the search
-    uint32_t candidates = 2000;  // how many sets are looked at where there are more than can be counted out
+    uint32_t variants = 1;      // of each prototile
+    uint64_t seed = 1;          // of the search
+    uint32_t candidates = 500;  // how many sets are looked at where there are more than can be counted out
 };
 
 // What a search came to.
