@@ -79,7 +79,8 @@ uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& mo
 class TileBake {
   public:
     TileBake(const Models& models, const ImageBake& bake, const ImageSet& set) : models_(models), bake_(bake), set_(set) {}
-    Result<Shard> image(std::span<const Stage> stages, const Which& which) const;
+    // foreign: of other neighbours, to be judged among; or null.
+    Result<Shard> image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const;
 
   private:
     std::vector<glm::vec3> colours_of(std::span<const Stage> stages, const Sampled& sampled, uint64_t seed) const;
@@ -95,7 +96,7 @@ std::vector<glm::vec3> TileBake::colours_of(std::span<const Stage> stages, const
     return colours;
 }
 
-Result<Shard> TileBake::image(std::span<const Stage> stages, const Which& which) const {
+Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const {
     auto index = int64_t(index_of(set_, which));
     SampleOptions options = bake_.sampling;
     options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
@@ -103,11 +104,12 @@ Result<Shard> TileBake::image(std::span<const Stage> stages, const Which& which)
     Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, hash_of(bake_.seed, kLightStream, index, 0)));
     auto bytes = packed(set_, which.level, ldi);
     if (!bytes) return tl::unexpected(bytes.error());
-    Shard shard{std::move(*bytes), all.rays, all.hits, all.eyes, {}};
+    Shard shard{std::move(*bytes), all.rays, all.hits, all.eyes, {}, {}};
     if (bake_.judged_views > 0) {
         Judging judging;
         judging.views = bake_.judged_views, judging.seed = hash_of(bake_.seed, kJudgeStream, index, 0);
         shard.judgement = judged(models_, stages[0], set_, which, ldi, bake_.light, judging);
+        if (foreign) shard.foreign = judged(models_, *foreign, set_, which, ldi, bake_.light, judging);
     }
     return shard;
 }
@@ -119,7 +121,9 @@ class SetBake {
     Result<ImageReport> run(container::Writer& writer, const std::function<void(double)>& progress);
 
   private:
+    // Those to sample from and, where images are judged, one more, of other neighbours.
     Result<std::vector<Stage>> stages_of(uint32_t context, uint32_t tile) const;
+    size_t sampled_stages(uint32_t context) const { return context == 1 ? 1 : std::max(1u, bake_.neighbourhoods); }
     // done: called by this thread with the share of the tile's images.
     Result<void> bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards, const std::function<void(double)>& done);
     void add_rows(uint64_t first, const std::vector<Shard>& shards);
@@ -136,9 +140,10 @@ class SetBake {
 
 Result<std::vector<Stage>> SetBake::stages_of(uint32_t context, uint32_t tile) const {
     std::vector<Stage> stages;
-    uint32_t count = context == 1 ? 1 : std::max(1u, bake_.neighbourhoods);
-    for (uint32_t n = 0; n < count; ++n) {
-        auto around = context == 1 ? alone(tile) : neighbourhood(tiles_, tile, hash_of(bake_.seed, kNeighbourStream, tile, n));
+    size_t count = sampled_stages(context) + (context == 0 && bake_.judged_views > 0 ? 1 : 0);
+    for (size_t n = 0; n < count; ++n) {
+        auto around =
+            context == 1 ? alone(tile) : neighbourhood(tiles_, tile, hash_of(bake_.seed, kNeighbourStream, tile, int64_t(n)));
         auto stage = stage_of(models_, copies_of(tiles_, planting_, around), bake_.memory_bytes / count);
         if (!stage) return tl::unexpected(stage.error());
         stages.push_back(std::move(*stage));
@@ -170,7 +175,9 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
             if (outcome) outcome = tl::unexpected(error);
         };
         try {
-            auto shard = one_.image(*stages, which_of(set_, first + missing[m]));
+            size_t own = sampled_stages(context);
+            const Stage* foreign = stages->size() > own ? &stages->back() : nullptr;
+            auto shard = one_.image(std::span(*stages).first(own), foreign, which_of(set_, first + missing[m]));
             if (!shard) return fail(shard.error());
             if (auto kept = kept_.keep(first + missing[m], *shard); !kept) return fail(kept.error());
             shards[missing[m]] = std::move(*shard);
@@ -189,7 +196,7 @@ void SetBake::add_rows(uint64_t first, const std::vector<Shard>& shards) {
     for (size_t i = 0; i < shards.size(); ++i) {
         const Shard& shard = shards[i];
         report_.rows.push_back({which_of(set_, first + i), shard.packed.sample_count, shard.packed.bytes.size(), shard.rays,
-                                shard.hits, shard.eyes, double(shard.packed.unseen_share), shard.judgement});
+                                shard.hits, shard.eyes, double(shard.packed.unseen_share), shard.judgement, shard.foreign});
     }
 }
 

@@ -33,7 +33,8 @@ struct ImageRow {
     uint32_t samples = 0;
     uint64_t stored_bytes = 0, rays = 0, hits = 0, eyes = 0;
     double unseen_share = 0;
-    Judgement judgement;
+    Judgement judgement;  // among the neighbours that the tile was sampled among
+    Judgement foreign;    // among others
 };
 struct ImageReport {
     ImageSet set;

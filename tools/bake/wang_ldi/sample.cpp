@@ -9,6 +9,7 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr uint32_t kLayersLog2 = 24;  // of cubes above each other
+constexpr uint32_t kMostLooks = 4;    // of what is met in a cube, so many first ones are looked at: its colour and normal
 
 // The cube that a place is in; false outside of the tile.
 bool cube_of(const Wedge& wedge, const glm::dvec3& at, uint64_t& cube) {
@@ -23,7 +24,7 @@ bool cube_of(const Wedge& wedge, const glm::dvec3& at, uint64_t& cube) {
 struct Cube {
     double height_sum_m = 0;
     glm::vec3 albedo_sum{0}, normal_sum{0};
-    uint32_t met = 0;
+    uint32_t met = 0, looks = 0;
     uint64_t place = 0;
     rays::Hit first;
     uint32_t stage = 0;
@@ -53,7 +54,6 @@ void Sampler::keep(std::span<const Stage> stages, size_t stage, const rays::Ray&
     glm::dvec3 at = glm::dvec3(ray.from_m) + double(hit.distance) * glm::dvec3(ray.along);
     uint64_t place = 0;
     if (!cube_of(wedge_, at, place)) return;
-    Point point = point_of(models_, stages[stage].copies, hit, ray.along);
     uint32_t number = table_.number_of(place);
     if (number == cubes_.size()) {
         cubes_.emplace_back();
@@ -65,7 +65,9 @@ void Sampler::keep(std::span<const Stage> stages, size_t stage, const rays::Ray&
     if (cube.met == 1) ++met_once_;
     if (cube.met == 2) --met_once_;
     cube.height_sum_m += at.z - wedge_.low_m;
-    cube.albedo_sum += point.albedo, cube.normal_sum += point.normal;
+    if (cube.looks == kMostLooks) return;
+    Point point = point_of(models_, stages[stage].copies, hit, ray.along);
+    ++cube.looks, cube.albedo_sum += point.albedo, cube.normal_sum += point.normal;
 }
 
 void Sampler::shoot(std::span<const Stage> stages, size_t stage, const Eye& eye) {
@@ -84,7 +86,7 @@ Sampled Sampler::take() {
     for (const Cube& cube : cubes_) {
         Sample sample;
         sample.pixel = uint32_t(cube.place >> kLayersLog2), sample.met = cube.met;
-        sample.height_m = float(cube.height_sum_m / cube.met), sample.albedo = cube.albedo_sum / float(cube.met);
+        sample.height_m = float(cube.height_sum_m / cube.met), sample.albedo = cube.albedo_sum / float(cube.looks);
         float length = glm::length(cube.normal_sum);
         sample.normal = length > 1e-6f ? cube.normal_sum / length : -glm::normalize(cube.seen_along);
         sample.hit = cube.first, sample.stage = cube.stage, sample.seen_along = cube.seen_along;
@@ -104,8 +106,11 @@ Sampled sampled(const Models& models, std::span<const Stage> stages, const Wedge
     };
     // What no ray meets is never met: an empty tile is done after its least eyes.
     auto is_empty = [&](uint64_t eyes) { return eyes >= 4 * uint64_t(options.least_eyes) && sampler.unseen_share() == 1; };
-    for (uint64_t eye = 0; !is_enough(eye) && !is_empty(eye); ++eye)
-        sampler.shoot(stages, eye % stages.size(), eye_of(wedge, options.seed, eye, options.rays_per_eye));
+    Eye one;
+    for (uint64_t eye = 0; !is_enough(eye) && !is_empty(eye); ++eye) {
+        set_eye(wedge, options.seed, eye, options.rays_per_eye, one);
+        sampler.shoot(stages, eye % stages.size(), one);
+    }
     return sampler.take();
 }
 
@@ -116,8 +121,9 @@ double unseen_of_held_out(std::span<const Stage> stages, const Wedge& wedge, con
         known.number_of(uint64_t(sample.pixel) << kLayersLog2 | uint64_t(std::floor(double(sample.height_m) * per_m)));
     uint64_t shot = 0, hits = 0, unseen = 0;
     std::vector<rays::Hit> found;
+    Eye one;
     for (uint64_t eye = 0; shot < rays; ++eye) {
-        Eye one = eye_of(wedge, seed, eye, 1u << 14);
+        set_eye(wedge, seed, eye, 1u << 14, one);
         const Stage& stage = stages[eye % stages.size()];
         found.resize(one.rays.size());
         stage.scene.first_hits(one.rays, found);

@@ -36,8 +36,8 @@ struct SampleOptions {
 struct Sample {
     uint32_t pixel = 0;   // row * side_px + column
     float height_m = 0;   // above low_m, mean over what was met
-    glm::vec3 albedo{0};  // linear, mean
-    glm::vec3 normal{0};  // mean, of length 1
+    glm::vec3 albedo{0};  // linear, mean over the first of what was met
+    glm::vec3 normal{0};  // likewise, of length 1
     uint32_t met = 0;     // how often
     // Where it was met first, in which stage and whence: what is lit.
     uint32_t stage = 0;
@@ -64,8 +64,8 @@ struct Eye {
     glm::vec3 at_m{0};
     std::vector<rays::Ray> rays;  // farthest: where they leave the box; along: of length 1
 };
-// The `index`-th eye of a sequence that fills the wedge evenly (R. L. Cook's jitter over an additive recurrence), rays in blocks
-// of 4 x 4.
-Eye eye_of(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye);
+// Makes `eye` the `index`-th of a sequence that fills the wedge evenly (an additive recurrence), its rays jittered (R. L. Cook,
+// Stochastic Sampling in Computer Graphics, 1986), in blocks of 4 x 4. What it was before does not matter.
+void set_eye(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye, Eye& eye);
 
 }  // namespace overlook::wang_ldi

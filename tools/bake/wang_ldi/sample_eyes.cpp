@@ -72,32 +72,32 @@ bool clip(const Wedge& wedge, const glm::dvec3& from, const glm::dvec3& along, d
 
 }  // namespace
 
-Eye eye_of(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye) {
+void set_eye(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye, Eye& eye) {
     std::array<double, 3> at = spread(seed, index);
     double heading = wedge.heading_rad + (2 * at[0] - 1) * wedge.half_width_rad;
     double distance = wedge.nearest_m * std::pow(wedge.farthest_m / wedge.nearest_m, at[1]);
-    glm::dvec3 eye(wedge.tile_m / 2 + distance * std::sin(heading), wedge.tile_m / 2 + distance * std::cos(heading),
-                   wedge.eye_low_m + (wedge.eye_high_m - wedge.eye_low_m) * at[2]);
-    Frame frame(wedge, eye);
+    glm::dvec3 from(wedge.tile_m / 2 + distance * std::sin(heading), wedge.tile_m / 2 + distance * std::cos(heading),
+                    wedge.eye_low_m + (wedge.eye_high_m - wedge.eye_low_m) * at[2]);
+    Frame frame(wedge, from);
     double width = frame.far_right - frame.left, height = frame.top - frame.bottom;
     double step = std::sqrt(width * height / rays_per_eye);
     auto columns = uint32_t(std::ceil(width / step)) + 1, rows = uint32_t(std::ceil(height / step)) + 1;
     Random random(hash_of(seed, kJitterStream, int64_t(index), 0));
-    double shift_x = random.next_unit(), shift_y = random.next_unit();
+    double shift_x = random.next_unit() - 1, shift_y = random.next_unit() - 1;
 
-    Eye made;
-    made.at_m = glm::vec3(eye);
-    made.rays.reserve(rays_per_eye);
+    eye.at_m = glm::vec3(from), eye.rays.clear();
     for (uint32_t block_row = 0; block_row < rows; block_row += 4)
         for (uint32_t block_column = 0; block_column < columns; block_column += 4)
             for (uint32_t i = 0; i < 16; ++i) {
-                double x = frame.left + (block_column + i % 4 + shift_x - 1 + random.next_unit()) * step;
-                double y = frame.bottom + (block_row + i / 4 + shift_y - 1 + random.next_unit()) * step;
-                glm::dvec3 along = glm::normalize(frame.forward + x * frame.right + y * frame.up);
+                uint64_t jitter = random.next();
+                double x = frame.left + (block_column + i % 4 + shift_x + double(jitter >> 32) * 0x1p-32) * step;
+                double y = frame.bottom + (block_row + i / 4 + shift_y + double(jitter & 0xffffffff) * 0x1p-32) * step;
+                glm::dvec3 along = frame.forward + x * frame.right + y * frame.up;
                 double leaves = 0;
-                if (clip(wedge, eye, along, leaves)) made.rays.push_back({made.at_m, glm::vec3(along), 0, float(leaves)});
+                if (!clip(wedge, from, along, leaves)) continue;
+                double length = glm::length(along);
+                eye.rays.push_back({eye.at_m, glm::vec3(along / length), 0, float(leaves * length)});
             }
-    return made;
 }
 
 }  // namespace overlook::wang_ldi

@@ -1,7 +1,8 @@
 #include "tools/bake/wang_ldi/shards.h"
 
-#include <cstring>
+#include <bit>
 #include <filesystem>
+#include <vector>
 
 #include "formats/atomic_file.h"
 #include "formats/container_rules.h"
@@ -12,27 +13,26 @@ namespace overlook::wang_ldi {
 namespace {
 
 // checksum of all that follows, then numbers, then the image's frame.
-constexpr size_t kChecksumBytes = 8, kNumbers = 13, kHeadBytes = kChecksumBytes + 8 * kNumbers;
+constexpr size_t kChecksumBytes = 8, kNumbers = 19, kHeadBytes = kChecksumBytes + 8 * kNumbers;
+
+void add_numbers(const Judgement& judgement, std::vector<uint64_t>& numbers) {
+    numbers.insert(numbers.end(), {judgement.pixels, judgement.holes, judgement.deeper, judgement.nearer,
+                                   std::bit_cast<uint64_t>(judgement.mean_error), std::bit_cast<uint64_t>(judgement.p99_error)});
+}
 
 std::vector<std::byte> bytes_of(const Shard& shard) {
-    std::vector<std::byte> bytes(kHeadBytes + shard.packed.bytes.size());
-    const Judgement& j = shard.judgement;
-    const uint64_t numbers[] = {shard.packed.checksum,
-                                uint64_t(shard.packed.raw_bytes) << 32 | shard.packed.sample_count,
-                                uint64_t(shard.packed.colour_count) << 32 | std::bit_cast<uint32_t>(shard.packed.unseen_share),
-                                shard.rays,
-                                shard.hits,
-                                shard.eyes,
-                                j.pixels,
-                                j.holes,
-                                j.deeper,
-                                j.nearer,
-                                std::bit_cast<uint64_t>(j.mean_error),
-                                std::bit_cast<uint64_t>(j.p99_error),
-                                shard.packed.bytes.size()};
-    static_assert(std::size(numbers) == kNumbers);
+    const Packed& packed = shard.packed;
+    std::vector<uint64_t> numbers{packed.checksum,
+                                  uint64_t(packed.raw_bytes) << 32 | packed.sample_count,
+                                  uint64_t(packed.colour_count) << 32 | std::bit_cast<uint32_t>(packed.unseen_share),
+                                  shard.rays,
+                                  shard.hits,
+                                  shard.eyes};
+    add_numbers(shard.judgement, numbers), add_numbers(shard.foreign, numbers);
+    numbers.push_back(packed.bytes.size());
+    std::vector<std::byte> bytes(kHeadBytes);
     for (size_t i = 0; i < kNumbers; ++i) store_le<uint64_t>(bytes, kChecksumBytes + 8 * i, numbers[i]);
-    if (!shard.packed.bytes.empty()) std::memcpy(bytes.data() + kHeadBytes, shard.packed.bytes.data(), shard.packed.bytes.size());
+    bytes.insert(bytes.end(), packed.bytes.begin(), packed.bytes.end());
     store_le<uint64_t>(bytes, 0, container::checksum_of(std::span(bytes).subspan(kChecksumBytes)));
     return bytes;
 }
@@ -41,15 +41,22 @@ std::optional<Shard> shard_of(std::span<const std::byte> bytes) {
     if (bytes.size() < kHeadBytes) return std::nullopt;
     if (load_le<uint64_t>(bytes, 0) != container::checksum_of(bytes.subspan(kChecksumBytes))) return std::nullopt;
     auto number = [&](size_t i) { return load_le<uint64_t>(bytes, kChecksumBytes + 8 * i); };
-    if (number(12) != bytes.size() - kHeadBytes) return std::nullopt;
+    if (number(kNumbers - 1) != bytes.size() - kHeadBytes) return std::nullopt;
     Shard shard;
     shard.packed.checksum = number(0);
     shard.packed.raw_bytes = uint32_t(number(1) >> 32), shard.packed.sample_count = uint32_t(number(1));
     shard.packed.colour_count = uint32_t(number(2) >> 32);
     shard.packed.unseen_share = std::bit_cast<float>(uint32_t(number(2)));
     shard.rays = number(3), shard.hits = number(4), shard.eyes = number(5);
-    shard.judgement = {
-        number(6), number(7), number(8), number(9), std::bit_cast<double>(number(10)), std::bit_cast<double>(number(11))};
+    auto judgement = [&](size_t at) {
+        return Judgement{number(at),
+                         number(at + 1),
+                         number(at + 2),
+                         number(at + 3),
+                         std::bit_cast<double>(number(at + 4)),
+                         std::bit_cast<double>(number(at + 5))};
+    };
+    shard.judgement = judgement(6), shard.foreign = judgement(12);
     shard.packed.bytes.assign(bytes.begin() + kHeadBytes, bytes.end());
     return shard;
 }

@@ -16,7 +16,7 @@ namespace overlook::wang_ldi {
 struct Shard {
     Packed packed;
     uint64_t rays = 0, hits = 0, eyes = 0;
-    Judgement judgement;
+    Judgement judgement, foreign;
 };
 
 // Of a folder, made where there is none: "OUT.ovl.parts" beside OUT.ovl. One file for each image, named by its index and by the
