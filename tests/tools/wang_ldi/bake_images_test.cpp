@@ -108,6 +108,27 @@ TEST(ImageBakes, GoOnWhereTheyWereStopped) {
     EXPECT_FALSE(std::filesystem::exists(bake.parts_folder));
 }
 
+TEST(ImageBakes, InPartsGiveTheSameBytesAsInOnePiece) {
+    ScratchFolder folder;
+    ImageBake bake = small_bake();
+    ASSERT_TRUE(baked(folder / "whole.ovl", bake, 2));
+    bake.parts_folder = folder / "parts";
+    uint64_t made = 0;
+    for (bake.part = 0, bake.part_count = 3; bake.part < 3; ++bake.part) {
+        auto part = baked(folder / "none.ovl", bake, 2);
+        ASSERT_TRUE(part);
+        EXPECT_GT(part->made, 0u);
+        EXPECT_EQ(part->rows.size(), 0u);
+        made += part->made;
+    }
+    bake.part = 0, bake.part_count = 1;
+    auto whole = baked(folder / "a.ovl", bake, 2);
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->made, 0u);
+    EXPECT_EQ(whole->taken_from_parts, made);
+    EXPECT_TRUE(text_of_file(folder / "a.ovl") == text_of_file(folder / "whole.ovl"));
+}
+
 TEST(ImageBakes, FailWhereTheirPartsCannotBeKept) {
     ScratchFolder folder;
     ImageBake bake = small_bake();

@@ -126,6 +126,7 @@ class SetBake {
     size_t sampled_stages(uint32_t context) const { return context == 1 ? 1 : std::max(1u, bake_.neighbourhoods); }
     // done: called by this thread with the share of the tile's images.
     Result<void> bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards, const std::function<void(double)>& done);
+    Result<void> bake_all(ImageWriter* images, const std::function<void(double)>& progress);
     void add_rows(uint64_t first, const std::vector<Shard>& shards);
 
     const TileSet& tiles_;
@@ -156,11 +157,13 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
     uint64_t first = index_of(set_, {context, tile, 0, 0});
     std::vector<size_t> missing;
     for (size_t i = 0; i < shards.size(); ++i) {
+        if ((first + i) % bake_.part_count != bake_.part) continue;
         if (auto kept = kept_.find(first + i))
             shards[i] = std::move(*kept), ++report_.taken_from_parts;
         else
             missing.push_back(i);
     }
+    report_.made += missing.size();
     if (missing.empty()) return {};
     auto stages = stages_of(context, tile);
     if (!stages) return tl::unexpected(stages.error());
@@ -200,25 +203,34 @@ void SetBake::add_rows(uint64_t first, const std::vector<Shard>& shards) {
     }
 }
 
-Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<void(double)>& progress) {
-    auto begin = std::chrono::steady_clock::now();
-    auto kept = Shards::in(bake_.parts_folder, key_of(tiles_, planting_, models_, bake_, set_));
-    if (!kept) return tl::unexpected(kept.error());
-    kept_ = std::move(*kept), report_.set = set_;
-    auto images = ImageWriter::begin(writer, set_);
-    if (!images) return tl::unexpected(images.error());
+Result<void> SetBake::bake_all(ImageWriter* images, const std::function<void(double)>& progress) {
     uint64_t of_tile = set_.levels.size() * set_.direction_count, tiles = uint64_t(set_.context_count) * set_.tile_count;
     for (uint64_t t = 0; t < tiles; ++t) {
         auto done = [&](double share) { progress((double(t) + share) / double(tiles)); };
         std::vector<Shard> shards(of_tile);
         if (auto baked = bake_tile(uint32_t(t / set_.tile_count), uint32_t(t % set_.tile_count), shards, done); !baked)
-            return tl::unexpected(baked.error());
+            return baked;
+        if (!images) continue;
         for (const Shard& shard : shards)
-            if (auto added = images->add(shard.packed); !added) return tl::unexpected(added.error());
+            if (auto added = images->add(shard.packed); !added) return added;
         add_rows(t * of_tile, shards);
     }
-    if (auto ended = images->end(); !ended) return tl::unexpected(ended.error());
-    report_.parts = kept_;
+    return {};
+}
+
+Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<void(double)>& progress) {
+    auto begin = std::chrono::steady_clock::now();
+    auto kept = Shards::in(bake_.parts_folder, key_of(tiles_, planting_, models_, bake_, set_));
+    if (!kept) return tl::unexpected(kept.error());
+    kept_ = std::move(*kept), report_.set = set_, report_.parts = kept_;
+    if (bake_.part_count > 1) {
+        if (auto baked = bake_all(nullptr, progress); !baked) return tl::unexpected(baked.error());
+    } else {
+        auto images = ImageWriter::begin(writer, set_);
+        if (!images) return tl::unexpected(images.error());
+        if (auto baked = bake_all(&*images, progress); !baked) return tl::unexpected(baked.error());
+        if (auto ended = images->end(); !ended) return tl::unexpected(ended.error());
+    }
     progress(1);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(report_);

@@ -24,6 +24,9 @@ struct ImageBake {
     uint64_t memory_bytes = uint64_t(4) << 30;  // for rays: beyond it, a tile and its neighbours are kept as instances
     uint64_t seed = 1;
     std::string parts_folder;  // of Shards; empty: nothing is kept
+    // Only images whose index leaves `part` when divided by part_count; others are not made, and no sections are written. For
+    // several machines, which share the folder or bring its files together.
+    uint64_t part = 0, part_count = 1;
 };
 // What the paper's constants change: levels and directions, 2.5 million rays an image, one neighbourhood.
 void take_paper_constants(ImageBake& bake);
@@ -38,7 +41,8 @@ struct ImageRow {
 };
 struct ImageReport {
     ImageSet set;
-    std::vector<ImageRow> rows;     // in the order of index_of
+    std::vector<ImageRow> rows;     // in the order of index_of; none of a part
+    uint64_t made = 0;              // images that were baked anew
     uint64_t taken_from_parts = 0;  // of rows
     double seconds = 0;
     Shards parts;  // to be removed (remove_all) when the file is committed
@@ -47,9 +51,9 @@ struct ImageReport {
 // How low and how high anything stands on the tiles, at least 0.1 m apart.
 glm::dvec2 heights_of(const Models& models, const Planting& planting);
 
-// Adds the sections WLDS and WLDI. planting.models are models.meshes, one by one. A pure function of all but parts_folder,
-// whatever the number of threads. `progress` is called with the share done, 0..1, from this thread. Fails as leveled() and
-// stage_of() do, with Exit::impossible if memory does not suffice, and as the writer does.
+// Adds the sections WLDS and WLDI (unless it is a part). planting.models are models.meshes, one by one. A pure function of all
+// but parts_folder, whatever the number of threads. `progress` is called with the share done, 0..1, from this thread. Fails as
+// leveled() and stage_of() do, with Exit::impossible if memory does not suffice, and as the writer does.
 Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles, const Planting& planting, const Models& models,
                                 const ImageBake& bake, const std::function<void(double)>& progress);
 

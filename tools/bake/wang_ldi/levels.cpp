@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<uint32_t, 7> kPaperSides_px{468, 232, 151, 111, 88, 73, 62};
 constexpr uint32_t kPaperDirections = 8;
 constexpr uint32_t kLeastSide_px = 4;
-constexpr double kNearestTiles = 1.5, kFarthestTiles = 40;
+constexpr double kNearestTiles = 2.5, kFarthestTiles = 40;
 
 Level level_of(const LevelOptions& options, uint32_t side_px, double nearest_m) {
     double step_m = options.set.tile_m / side_px / options.steps_per_pixel;

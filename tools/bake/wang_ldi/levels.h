@@ -14,7 +14,7 @@ enum class Constants { chosen, paper };
 struct LevelOptions {
     Constants constants = Constants::chosen;
     // Cell, the tile, heights, counts and flags of the set that is asked for; its levels and directions are what is chosen.
-    // A cell's distances of 0: chosen, from 1.5 to 40 sides of a tile.
+    // A cell's distances of 0: chosen, from 2.5 to 40 sides of a tile.
     ImageSet set;
     double level_ratio = 1.5;    // a level's pixels are so much wider than the next finer one's; above 1, up to 4
     double direction_px = 96;    // a tile's rim may turn by so many pixels within a wedge, at the nearest distance
