@@ -9,6 +9,8 @@
 namespace overlook::wang_ldi {
 namespace {
 
+constexpr uint32_t kSamplesPerColour = 24, kLeastColours = 16;
+
 struct Kept {
     uint32_t pixel = 0, sample = 0;
     uint16_t step = 0;
@@ -67,7 +69,9 @@ Ldi assembled(const ImageSet& set, uint32_t level, const Sampled& sampled, std::
         if (set.has_splats) ldi.splats.push_back(uint8_t(std::lround(double(set.levels[level].splat_px) * 16)));
     }
     for (size_t p = 1; p < ldi.first.size(); ++p) ldi.first[p] += ldi.first[p - 1];
-    Palette palette = palette_of(codes, kMostColours);
+    // A small image has few colours, or they would outweigh it.
+    auto most = std::clamp(uint32_t(codes.size() / kSamplesPerColour), kLeastColours, kMostColours);
+    Palette palette = palette_of(codes, most);
     ldi.palette = std::move(palette.colours), ldi.colours = std::move(palette.indices);
     return ldi;
 }

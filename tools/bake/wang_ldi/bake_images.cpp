@@ -16,8 +16,12 @@
 namespace overlook::wang_ldi {
 namespace {
 
+constexpr const char* kNoMemory =
+    "there is not enough memory for the images of a tile; ask for a greater pixel error or less memory for rays, or give fewer "
+    "threads";
 constexpr uint64_t kPaperRays = 2'500'000;
 constexpr uint32_t kPaperEyes = 64;
+constexpr uint32_t kLeastRaysPerEye = 1024;
 constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44;
 
 // A hash of values and rows of them, as they lie in memory: for a key that never leaves this machine.
@@ -100,6 +104,9 @@ Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreig
     auto index = int64_t(index_of(set_, which));
     SampleOptions options = bake_.sampling;
     options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
+    // A coarse image needs many eyes more than many rays of each.
+    uint32_t side = set_.levels[which.level].side_px;
+    if (options.fixed_rays == 0) options.rays_per_eye = std::clamp(4 * side * side, kLeastRaysPerEye, options.rays_per_eye);
     Sampled all = sampled(models_, stages, wedge_of(set_, which.level, which.direction), options);
     Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, hash_of(bake_.seed, kLightStream, index, 0)));
     auto bytes = packed(set_, which.level, ldi);
@@ -187,9 +194,7 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
             size_t count = ++finished;
             if (std::this_thread::get_id() == caller) done(double(count) / double(missing.size()));
         } catch (const std::bad_alloc&) {
-            fail({Exit::impossible,
-                  "there is not enough memory for the images of a tile; ask for a greater pixel error, or give "
-                  "fewer threads"});
+            fail({Exit::impossible, kNoMemory});
         }
     });
     return outcome;
