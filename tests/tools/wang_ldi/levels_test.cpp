@@ -52,7 +52,7 @@ TEST(Levels, ThatNobodyCanHaveAreRefusedWithAWayOut) {
     EXPECT_EQ(inside.error().exit, Exit::bad_command);
     EXPECT_EQ(
         inside.error().message,
-        "tiles begin at 2.5 m from the eye, within a tile of 4 m; --nearest 2.84 at least, nearer ones are drawn as geometry");
+        "tiles begin at 2.5 m from the eye, within a tile of 4 m; --nearest-m 2.84 at least, nearer ones are drawn as geometry");
     options.set.cell.nearest_m = 6, options.set.cell.error_px = 0.01;
     auto fine = leveled(options);
     ASSERT_FALSE(fine);

@@ -46,7 +46,7 @@ Result<void> choose(const LevelOptions& options, ImageSet& set) {
     double at = set.cell.nearest_m, rim = set.tile_m / std::sqrt(2.0);
     if (at <= rim)
         return bad_command(
-            "tiles begin at {} m from the eye, within a tile of {} m; --nearest {} at least, nearer ones are drawn as geometry",
+            "tiles begin at {} m from the eye, within a tile of {} m; --nearest-m {} at least, nearer ones are drawn as geometry",
             at, set.tile_m, std::ceil(rim * 100 + 1) / 100);
     if (double most = side_wanted(set, at); most > kMostSide_px)
         return bad_command(
