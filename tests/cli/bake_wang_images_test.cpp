@@ -37,7 +37,9 @@ Words words_of(const ScratchFolder& folder, const std::string& output, const Wor
                 "-o",
                 folder / output,
                 "--tiles",
-                "8",
+                "1",
+                "--variants",
+                "3",
                 "--height-px",
                 "160",
                 "--error-px",
@@ -74,7 +76,7 @@ TEST(BakeWangImages, SaysWhatItHasMadeAndCanBeRead) {
     expect_done(ran);
     nlohmann::json report = nlohmann::json::parse(ran.out)["images"];
     EXPECT_GE(report["levels"].size(), 2u);
-    EXPECT_EQ(report["images"], 8 * report["levels"].size() * report["directions"].get<size_t>());
+    EXPECT_EQ(report["images"], 3 * report["levels"].size() * report["directions"].get<size_t>());
     EXPECT_LE(report["unseen_share_most"], 0.02);
     EXPECT_GT(report["among_foreign_neighbours"]["pixels"], 100);
     EXPECT_LT(report["bytes_per_sample"], 3.5);
@@ -153,7 +155,7 @@ TEST(BakeWangImages, RefusesOptionsThatMakeNoSenseInOneLine) {
     expect(2, {"--part x", "K/N is wanted"}, {"--part", "x"});
     expect(2, {"--eye-high-m 1", "--eye-low-m 1.5"}, {"--eye-high-m", "1"});
     expect(2, {"--farthest-m 30", "--nearest-m 40"}, {"--nearest-m", "40"});
-    expect(2, {"--error-px", "nan"}, {"--error-px", "nan"});
+    expect(2, {"--level-ratio", "nan"}, {"--level-ratio", "nan"});
     expect(2, {"--unseen"}, {"--unseen", "0"});
 }
 
@@ -162,7 +164,8 @@ TEST(BakeWangImages, RefusesTilesThatAreTooNear) {
     write_bushes(folder);
     expect_refusal(run(words_of(folder, "a.ovl", {"--nearest-m", "1"})), 2, "bake-wang-ldi",
                    {"within a tile of 3 m", "--nearest-m 2.1"});
-    expect_refusal(run(words_of(folder, "a.ovl", {"--height-px", "100000"})), 2, "bake-wang-ldi", {"4,096 are possible"});
+    expect_refusal(run(words_of(folder, "a.ovl", {"--fov-y-deg", "1", "--nearest-m", "3"})), 2, "bake-wang-ldi",
+                   {"4,096 are possible"});
     EXPECT_FALSE(fs::exists(folder / "a.ovl"));
 }
 
