@@ -219,6 +219,36 @@ Result<ImageRgb8> read_rgb8(const PictureFile& file) {
     return picture;
 }
 
+Result<PictureRgba8> read_rgba8(const PictureFile& file, std::span<const std::byte> bytes) {
+    constexpr uint64_t kMostPixels = uint64_t(1) << 26;
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    OpenImage image;
+    image.path = file.path;
+    image.input = ImageInput::create(file.reader);
+    OIIO::geterror();
+    if (!image.input || !image.input->set_ioproxy(&memory)) return bad_input("{}: is no picture that is read from memory", file.path);
+    ImageSpec as_stored;
+    as_stored.attribute("oiio:UnassociatedAlpha", 1);
+    if (!image.input->open(file.path, image.spec, as_stored)) return image.failure();
+    const ImageSpec& spec = image.spec;
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
+        return bad_input("{}: its size is {} x {} with {} channels", file.path, spec.width, spec.height, spec.nchannels);
+    uint64_t count = uint64_t(spec.width) * uint64_t(spec.height);
+    if (count > kMostPixels || spec.nchannels > 16)
+        return bad_input("{}: has {} x {} pixels, at most {} in all are read", file.path, spec.width, spec.height, kMostPixels);
+    auto channels = size_t(spec.nchannels);
+    std::vector<uint8_t> stored(count * channels);
+    if (!image.input->read_image(0, 0, 0, spec.nchannels, TypeDesc::UINT8, stored.data())) return image.failure();
+    PictureRgba8 picture{uint32_t(spec.width), uint32_t(spec.height), std::vector<uint8_t>(4 * count)};
+    for (uint64_t i = 0; i < count; ++i) {
+        const uint8_t* from = stored.data() + i * channels;
+        for (size_t c = 0; c < 3; ++c) picture.pixels[4 * i + c] = from[channels >= 3 ? c : 0];
+        picture.pixels[4 * i + 3] = channels == 2 ? from[1] : channels >= 4 ? from[3] : uint8_t(255);
+    }
+    image.input->close();
+    return picture;
+}
+
 std::optional<PictureSize> size_of(const PictureFile& file, std::span<const std::byte> bytes) {
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
     OpenImage image;
@@ -266,6 +296,8 @@ constexpr ImageLibrary kLibrary = {
     .read_numbers = [](const PictureFile& file,
                        const ImageWindow& window) { return guarded(file.path, [&] { return read_numbers(file, window); }); },
     .read_rgb8 = [](const PictureFile& file) { return guarded(file.path, [&] { return read_rgb8(file); }); },
+    .read_rgba8 = [](const PictureFile& file,
+                     std::span<const std::byte> bytes) { return guarded(file.path, [&] { return read_rgba8(file, bytes); }); },
     .size_of = size_of,
     .write_png = write_png,
 };

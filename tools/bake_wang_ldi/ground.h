@@ -8,6 +8,9 @@
 #include "tools/bake/wang_ldi/figures.h"
 #include "tools/bake/wang_ldi/recipe.h"
 
+namespace overlook::wang_ldi {
+struct ImageReport;
+}
 namespace overlook::bake_wang_ldi {
 
 struct GroundArgs {
@@ -37,7 +40,8 @@ Result<GroundDone> make_ground(const GroundArgs& args, const command::Common& co
 // Whence the file is: options that decide its bytes, the recipe and the models.
 Result<container::Provenance> provenance_of(const GroundArgs& args, const GroundDone& done);
 
-// JSON on stdout, or lines on stderr.
-void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t bytes, const command::Common& common);
+// JSON on stdout, or lines on stderr. images: of the second step, or null.
+void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t bytes, const wang_ldi::ImageReport* images,
+                   const command::Common& common);
 
 }  // namespace overlook::bake_wang_ldi

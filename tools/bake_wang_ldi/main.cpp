@@ -1,10 +1,11 @@
-// bake-wang-ldi: plants and how they are to stand in, ground of Wang tiles out.
+// bake-wang-ldi: plants and how they are to stand in, ground of Wang tiles and layered depth images of it out.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "formats/container.h"
 #include "tools/bake_wang_ldi/ground.h"
+#include "tools/bake_wang_ldi/images.h"
 
 using namespace overlook;
 
@@ -12,27 +13,51 @@ namespace {
 
 constexpr const char* kName = "bake-wang-ldi";
 
-Result<uint64_t> write_file(const bake_wang_ldi::GroundArgs& args, const bake_wang_ldi::GroundDone& done) {
-    auto provenance = bake_wang_ldi::provenance_of(args, done);
+struct Args {
+    bake_wang_ldi::GroundArgs ground;
+    bake_wang_ldi::ImageArgs images;
+
+    bool has_images() const { return ground.only != "planting"; }
+    bool is_part() const { return has_images() && !images.part.empty(); }
+};
+
+// 0 bytes of a part, which makes no file.
+Result<uint64_t> write_file(const Args& args, const bake_wang_ldi::GroundDone& done, const command::Common& common,
+                            wang_ldi::ImageReport& report) {
+    auto provenance = bake_wang_ldi::provenance_of(args.ground, done);
     if (!provenance) return tl::unexpected(provenance.error());
-    auto writer = container::Writer::create(args.output, wang_ldi::kKind);
+    auto writer = container::Writer::create(args.ground.output, wang_ldi::kKind);
     if (!writer) return tl::unexpected(writer.error());
     if (auto written = wang_ldi::write(*writer, done.ground); !written) return tl::unexpected(written.error());
+    if (args.has_images()) {
+        auto bake = bake_wang_ldi::image_bake_of(args.images, args.ground.output, done.recipe.seed);
+        if (!bake) return tl::unexpected(bake.error());
+        auto added = bake_wang_ldi::add_images(*writer, done, args.images, *bake, common);
+        if (!added) return tl::unexpected(added.error());
+        report = std::move(*added);
+        bake_wang_ldi::add_image_options_in_words(args.images, *provenance);
+    }
+    if (args.is_part()) return 0;
     if (auto added = writer->add_provenance(*provenance); !added) return tl::unexpected(added.error());
-    return writer->commit();
+    auto bytes = writer->commit();
+    if (bytes) report.parts.remove_all(report.rows.size());
+    return bytes;
 }
 
-int bake(const bake_wang_ldi::GroundArgs& args, const command::Common& common) {
+int bake(const Args& args, const command::Common& common) {
     std::error_code is_no_file;
-    if (std::filesystem::equivalent(args.recipe, args.output, is_no_file))
+    const std::string& output = args.ground.output;
+    if (std::filesystem::equivalent(args.ground.recipe, output, is_no_file))
         return command::fail(
-            kName,
-            Error{Exit::bad_command, fmt::format("{}: is read and would be overwritten; give another --output", args.output)});
-    auto done = bake_wang_ldi::make_ground(args, common);
+            kName, Error{Exit::bad_command, fmt::format("{}: is read and would be overwritten; give another --output", output)});
+    // What the command line says wrongly is said before anything is done.
+    if (auto bake = bake_wang_ldi::image_bake_of(args.images, output, 1); !bake) return command::fail(kName, bake.error());
+    auto done = bake_wang_ldi::make_ground(args.ground, common);
     if (!done) return command::fail(kName, done.error());
-    auto bytes = write_file(args, *done);
+    wang_ldi::ImageReport images;
+    auto bytes = write_file(args, *done, common, images);
     if (!bytes) return command::fail(kName, bytes.error());
-    bake_wang_ldi::report_ground(args, *done, *bytes, common);
+    bake_wang_ldi::report_ground(args.ground, *done, *bytes, args.has_images() ? &images : nullptr, common);
     return int(Exit::done);
 }
 
@@ -41,11 +66,12 @@ int bake(const bake_wang_ldi::GroundArgs& args, const command::Common& common) {
 int main(int argc, char** argv) {
     CLI::App app("Bakes plants into ground of Wang tiles: a few plots that cover any terrain without repeating.", kName);
     command::Common common;
-    bake_wang_ldi::GroundArgs args;
-    bake_wang_ldi::add_ground_options(app, args);
-    command::add_common(app, common, command::Uses::seed);
+    Args args;
+    bake_wang_ldi::add_ground_options(app, args.ground);
+    bake_wang_ldi::add_image_options(app, args.images);
+    command::add_common(app, common, command::Uses::seed | command::Uses::memory);
     return command::run(app, common, argc, argv, [&] {
-        args.has_seed = app.count("--seed") > 0;
+        args.ground.has_seed = app.count("--seed") > 0;
         return bake(args, common);
     });
 }

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bake_wang_ldi/ground.h"
+#include "tools/bake_wang_ldi/images.h"
 
 namespace overlook::bake_wang_ldi {
 namespace {
@@ -71,10 +72,12 @@ ordered_json planting_json(const GroundDone& done) {
 
 }  // namespace
 
-void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t bytes, const command::Common& common) {
+void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t bytes, const wang_ldi::ImageReport* images,
+                   const command::Common& common) {
     if (common.json) {
         ordered_json json{{"file", args.output}, {"tiles", tiles_json(done)}, {"planting", planting_json(done)}, {"bytes", bytes},
                           {"set_s", done.set_s}, {"plant_s", done.plant_s},   {"measure_s", done.measure_s}};
+        if (images) json["images"] = images_json(*images);
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
         return;
     }
@@ -102,6 +105,7 @@ void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t byte
         command::detail(common, figures.no_random_access);
     command::detail(common,
                     fmt::format("set {:.2f} s, planting {:.2f} s, measuring {:.2f} s", done.set_s, done.plant_s, done.measure_s));
+    if (images) say_images(*images, common);
 }
 
 }  // namespace overlook::bake_wang_ldi

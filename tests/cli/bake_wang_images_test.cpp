@@ -1,0 +1,173 @@
+// bake-wang-ldi makes layered depth images: the same bytes whatever threads, goes on after kill -9, in parts; one line for bad
+// options.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "formats/wang_ldi.h"
+#include "tests/cli/run_command.h"
+#include "tests/formats/scratch_folder.h"
+
+namespace overlook::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+// A bush of one model: a cone of 24 triangles, 0.6 m high, green.
+void write_bushes(const ScratchFolder& folder) {
+    std::string obj = "v 0 0 0.6\n";
+    for (int i = 0; i < 24; ++i) {
+        double angle = 6.283185307179586 * i / 24;
+        obj += fmt::format("v {} {} {}\n", 0.25 * std::cos(angle), 0.25 * std::sin(angle), i % 2 ? 0.0 : 0.1);
+    }
+    for (int i = 0; i < 24; ++i) obj += fmt::format("f 1 {} {}\n", i + 2, (i + 1) % 24 + 2);
+    write_text(folder / "bush.obj", obj);
+    write_text(folder / "bushes.toml",
+               "tile_size_m = 3\n\n[[model]]\nfile = \"bush.obj\"\npacking_radius_m = 0.3\ntight_radius_m = 0.26\n");
+}
+
+Words words_of(const ScratchFolder& folder, const std::string& output, const Words& more = {}) {
+    Words words{"bake-wang-ldi",
+                folder / "bushes.toml",
+                "-o",
+                folder / output,
+                "--tiles",
+                "1",
+                "--variants",
+                "3",
+                "--height-px",
+                "160",
+                "--error-px",
+                "2",
+                "--sky-rays",
+                "8",
+                "--sun-rays",
+                "2",
+                "--direction-px",
+                "30",
+                "--farthest-m",
+                "30"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::string read_ldis(const std::string& path, uint64_t& samples) {
+    auto file = container::Reader::open(path);
+    if (!file) return file.error().message;
+    auto images = wang_ldi::ImageReader::open(*file);
+    if (!images) return images.error().message;
+    for (uint64_t i = 0; i < images->set().ldi_count(); ++i) {
+        auto ldi = images->read(i);
+        if (!ldi) return ldi.error().message;
+        samples += ldi->sample_count();
+    }
+    return "";
+}
+
+TEST(BakeWangImages, SaysWhatItHasMadeAndCanBeRead) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    Ran ran = run(words_of(folder, "a.ovl", {"--json", "--judge", "1"}));
+    expect_done(ran);
+    nlohmann::json report = nlohmann::json::parse(ran.out)["images"];
+    EXPECT_GE(report["levels"].size(), 2u);
+    EXPECT_EQ(report["images"], 3 * report["levels"].size() * report["directions"].get<size_t>());
+    EXPECT_LE(report["unseen_share_most"], 0.02);
+    EXPECT_GT(report["among_foreign_neighbours"]["pixels"], 100);
+    EXPECT_LT(report["bytes_per_sample"], 3.5);
+    for (const auto& level : report["levels"]) EXPECT_EQ(level["by_direction"].size(), report["directions"]);
+    uint64_t samples = 0;
+    EXPECT_EQ(read_ldis(folder / "a.ovl", samples), "");
+    EXPECT_EQ(samples, report["samples"]);
+    EXPECT_FALSE(fs::exists(folder / "a.ovl.parts"));
+    expect_done(run({"baked", "info", folder / "a.ovl"}));
+}
+
+TEST(BakeWangImages, WritesSameBytesWithAnyThreadCount) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    std::string first;
+    for (const char* threads : {"1", "2", "3"}) {
+        expect_done(run(words_of(folder, "a.ovl", {"--threads", threads})));
+        std::string bytes = text_of_file(folder / "a.ovl");
+        if (first.empty()) first = bytes;
+        EXPECT_TRUE(bytes == first) << threads;
+    }
+}
+
+size_t parts_in(const std::string& folder) {
+    if (!fs::exists(folder)) return 0;
+    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(BakeWangImages, GoesOnWhereItWasKilled) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "whole.ovl")));
+    write_text(folder / "a.ovl", "an older file");
+    bool was_killed = false;
+    for (int attempt = 0; attempt < 5 && !was_killed; ++attempt) {
+        Running bake(words_of(folder, "a.ovl", {"--threads", "2"}));
+        auto begin = std::chrono::steady_clock::now();
+        while (parts_in(folder / "a.ovl.parts") < 3 && std::chrono::steady_clock::now() - begin < std::chrono::seconds(60))
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        bake.send(SIGKILL);
+        was_killed = bake.wait().signal == SIGKILL && parts_in(folder / "a.ovl.parts") >= 3;
+    }
+    ASSERT_TRUE(was_killed) << "the bake was never seen while it sampled";
+    EXPECT_EQ(text_of_file(folder / "a.ovl"), "an older file");
+    Ran ran = run(words_of(folder, "a.ovl", {"--json"}));
+    expect_done(ran);
+    EXPECT_GE(nlohmann::json::parse(ran.out)["images"]["taken_from_parts"], 2);
+    EXPECT_TRUE(text_of_file(folder / "a.ovl") == text_of_file(folder / "whole.ovl"));
+    EXPECT_FALSE(fs::exists(folder / "a.ovl.parts") &&
+                 parts_in(folder / "a.ovl.parts") > 1);  // a killed writer's own file may stay
+}
+
+TEST(BakeWangImages, InPartsGivesTheSameBytes) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "whole.ovl")));
+    for (const char* part : {"2/2", "1/2"}) {
+        expect_done(run(words_of(folder, "none.ovl", {"--part", part, "--parts", folder / "parts"})));
+        EXPECT_FALSE(fs::exists(folder / "none.ovl"));
+    }
+    Ran ran = run(words_of(folder, "a.ovl", {"--parts", folder / "parts", "--json"}));
+    expect_done(ran);
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["images"]["baked"], 0);
+    EXPECT_TRUE(text_of_file(folder / "a.ovl") == text_of_file(folder / "whole.ovl"));
+}
+
+TEST(BakeWangImages, RefusesOptionsThatMakeNoSenseInOneLine) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    auto before = contents_of(folder.path());
+    auto expect = [&](int exit, const std::vector<std::string>& parts, const Words& more) {
+        expect_refusal(run(words_of(folder, "a.ovl", more)), exit, "bake-wang-ldi", parts);
+        EXPECT_EQ(contents_of(folder.path()), before);
+    };
+    expect(2, {"--part 3/2", "K/N is wanted"}, {"--part", "3/2"});
+    expect(2, {"--part x", "K/N is wanted"}, {"--part", "x"});
+    expect(2, {"--eye-high-m 1", "--eye-low-m 1.5"}, {"--eye-high-m", "1"});
+    expect(2, {"--farthest-m 30", "--nearest-m 40"}, {"--nearest-m", "40"});
+    expect(2, {"--level-ratio", "nan"}, {"--level-ratio", "nan"});
+    expect(2, {"--unseen"}, {"--unseen", "0"});
+}
+
+TEST(BakeWangImages, RefusesTilesThatAreTooNear) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_refusal(run(words_of(folder, "a.ovl", {"--nearest-m", "1"})), 2, "bake-wang-ldi",
+                   {"within a tile of 3 m", "--nearest-m 2.1"});
+    expect_refusal(run(words_of(folder, "a.ovl", {"--fov-y-deg", "1", "--nearest-m", "3"})), 2, "bake-wang-ldi",
+                   {"4,096 are possible"});
+    EXPECT_FALSE(fs::exists(folder / "a.ovl"));
+}
+
+}  // namespace
+}  // namespace overlook::cli

@@ -1,0 +1,134 @@
+// Layered depth images come back as they were written, none is written that a reader would refuse, and the image for an eye is
+// the one whose direction is nearest.
+#include "formats/wang_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/corrupt/wang_images_fixtures.h"
+#include "tests/formats/scratch_folder.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+// Columns of 0 to 300 samples at heights that a small generator scatters.
+Ldi scattered(const ImageSet& set, uint32_t level, uint32_t seed) {
+    auto next = [&] { return (seed = seed * 1664525 + 1013904223) >> 8; };
+    Ldi ldi;
+    ldi.side_px = set.levels[level].side_px, ldi.first = {0};
+    auto top = uint32_t((set.high_m - set.low_m) / double(set.levels[level].height_step_m));
+    for (uint32_t p = 0; p < ldi.side_px * ldi.side_px; ++p) {
+        uint32_t height = next() % (top / 2 + 1);
+        for (uint32_t left = next() % 8 == 0 ? 300 : next() % 4; left > 0 && height <= top; --left, height += 1 + next() % 3)
+            ldi.heights.push_back(uint16_t(height));
+        ldi.first.push_back(ldi.sample_count());
+    }
+    for (uint32_t s = 0; s < ldi.sample_count(); ++s) {
+        ldi.colours.push_back(uint8_t(next() % 200));
+        if (set.has_normals) ldi.normals.push_back({int8_t(int(next() % 255) - 127), int8_t(int(next() % 255) - 127)});
+        if (set.has_splats) ldi.splats.push_back(uint8_t(1 + next() % 255));
+    }
+    for (int c = 0; c < 200; ++c) ldi.palette.push_back({uint8_t(c), uint8_t(255 - c), 7});
+    ldi.unseen_share = 0.25f;
+    return ldi;
+}
+
+ImageSet field() {
+    ImageSet set = image_fixtures::post();
+    set.levels = {{24, 1, 0.002f, 1}, {9, 3, 0.004f, 1.25f}}, set.tile_count = 2, set.direction_count = 3;
+    return set;
+}
+
+TEST(LayeredImages, ComeBackAsTheyWereWritten) {
+    for (int variant = 0; variant < 4; ++variant) {
+        ImageSet set = field();
+        set.has_normals = (variant & 1) != 0, set.has_splats = (variant & 2) != 0;
+        ScratchFolder folder;
+        auto file = container::Writer::create(folder / "a.ovl", container::tag("WANG"));
+        ASSERT_TRUE(file);
+        auto writer = ImageWriter::begin(*file, set);
+        ASSERT_TRUE(writer) << writer.error().message;
+        for (uint64_t i = 0; i < set.ldi_count(); ++i) {
+            uint32_t level = which_of(set, i).level;
+            auto bytes = packed(set, level, scattered(set, level, uint32_t(i)));
+            ASSERT_TRUE(bytes) << bytes.error().message;
+            ASSERT_TRUE(writer->add(*bytes));
+        }
+        ASSERT_TRUE(writer->end());
+        ASSERT_TRUE(file->commit());
+
+        auto read = container::Reader::open(folder / "a.ovl");
+        ASSERT_TRUE(read);
+        auto images = ImageReader::open(*read);
+        ASSERT_TRUE(images) << images.error().message;
+        EXPECT_TRUE(images->set().levels == set.levels);
+        EXPECT_EQ(images->set().cell.eye_high_m, 1.9);
+        for (uint64_t i = set.ldi_count(); i-- > 0;) {
+            auto ldi = images->read(i);
+            ASSERT_TRUE(ldi) << ldi.error().message;
+            EXPECT_TRUE(*ldi == scattered(set, which_of(set, i).level, uint32_t(i))) << i;
+        }
+    }
+}
+
+TEST(LayeredImages, AreNotWrittenWhereAReaderWouldRefuseThem) {
+    ImageSet set = image_fixtures::post();
+    auto refused = [&](auto change) {
+        Ldi ldi = image_fixtures::images_of_post()[0];
+        change(ldi);
+        auto bytes = packed(set, 0, ldi);
+        return !bytes && bytes.error().exit == Exit::our_bug;
+    };
+    EXPECT_FALSE(refused([](Ldi&) {}));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.side_px = 3; }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.first[1] = 5; }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.heights[1] = 0; }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.colours[0] = 2; }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.normals.pop_back(); }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.normals[0][0] = -128; }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.splats[0] = 0; }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.palette.clear(); }));
+    EXPECT_TRUE(refused([](Ldi& ldi) { ldi.unseen_share = NAN; }));
+}
+
+TEST(LayeredImages, ASetOfTooFewImagesIsNotWritten) {
+    ScratchFolder folder;
+    auto file = container::Writer::create(folder / "a.ovl", container::tag("WANG"));
+    auto writer = ImageWriter::begin(*file, image_fixtures::post());
+    auto bytes = packed(image_fixtures::post(), 0, image_fixtures::images_of_post()[0]);
+    ASSERT_TRUE(writer->add(*bytes));
+    auto ended = writer->end();
+    ASSERT_FALSE(ended);
+    EXPECT_EQ(ended.error().exit, Exit::our_bug);
+}
+
+TEST(LayeredImages, EveryOneHasItsOwnIndex) {
+    ImageSet set = field();
+    set.context_count = 2;
+    for (uint64_t i = 0; i < set.ldi_count(); ++i) EXPECT_EQ(index_of(set, which_of(set, i)), i);
+}
+
+TEST(LayeredImages, TheDirectionForAnEyeIsTheNearestOne) {
+    ImageSet set = field();
+    for (uint32_t count : {1u, 3u, 8u, 64u}) {
+        set.direction_count = count;
+        for (double heading = 0.1; heading < 360; heading += 7.3) {
+            double radians = heading * M_PI / 180;
+            uint32_t chosen = direction_for(set, 5.0 * glm::dvec2(std::sin(radians), std::cos(radians)));
+            double off = std::abs(std::remainder(heading - 360.0 * chosen / count, 360.0));
+            EXPECT_LE(off, 180.0 / count + 1e-9) << heading << " of " << count;
+        }
+    }
+}
+
+TEST(LayeredImages, TheLevelForADistanceIsTheLastThatBeginsBefore) {
+    ImageSet set = field();
+    EXPECT_EQ(level_for(set, 0), 0u);
+    EXPECT_EQ(level_for(set, 2.9), 0u);
+    EXPECT_EQ(level_for(set, 3), 1u);
+    EXPECT_EQ(level_for(set, 1e9), 1u);
+}
+
+}  // namespace
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,284 @@
+#include "tools/bake/wang_ldi/bake_images.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include "formats/container_rules.h"
+#include "formats/parallel.h"
+#include "formats/wang_ldi_layout.h"
+#include "runtime/wang_ldi/random.h"
+#include "tools/bake/wang_ldi/assemble.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr const char* kNoMemory =
+    "there is not enough memory for the images of a tile; ask for a greater pixel error or less memory for rays, or give fewer "
+    "threads";
+constexpr uint64_t kPaperRays = 2'500'000;
+constexpr uint32_t kPaperEyes = 64;
+constexpr uint32_t kLeastRaysPerEye = 1024;
+constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44;
+
+// A hash of values and rows of them, as they lie in memory: for a key that never leaves this machine.
+class Key {
+  public:
+    template <class T>
+    void add(const T& value) {
+        static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
+        add_bytes(std::as_bytes(std::span(&value, 1)));
+    }
+    template <class T>
+    void add_row(const std::vector<T>& row) {
+        add(uint64_t(row.size()));
+        add_bytes(std::as_bytes(std::span(row)));
+    }
+    uint64_t value() const { return value_; }
+
+  private:
+    void add_bytes(std::span<const std::byte> bytes) { value_ = mixed(value_ ^ container::checksum_of(bytes)); }
+    uint64_t value_ = 1;
+};
+
+void add_models(const Models& models, Key& key) {
+    for (size_t m = 0; m < models.meshes.size(); ++m) {
+        const rays::Mesh& mesh = models.meshes[m];
+        const Skin& skin = models.skins[m];
+        key.add_row(mesh.positions_m), key.add_row(mesh.triangles), key.add_row(mesh.uvs), key.add_row(mesh.masks_of);
+        for (const rays::Mask& mask : mesh.masks) key.add(mask.width_px), key.add(mask.least), key.add_row(mask.opacity);
+        key.add_row(skin.normals), key.add_row(skin.colours), key.add_row(skin.looks_of), key.add_row(skin.looks);
+        for (const Texture& texture : skin.textures) key.add(texture.width_px), key.add_row(texture.pixels);
+    }
+}
+
+void add_planting(const TileSet& tiles, const Planting& planting, Key& key) {
+    key.add_row(tiles.tiles), key.add(planting.tile_size_m);
+    for (const auto& objects : planting.tiles)
+        for (const Planted& object : objects) {
+            key.add(object.model), key.add(object.x_m), key.add(object.y_m), key.add(object.turn_rad), key.add(object.scale);
+            key.add(uint32_t(object.owner));
+        }
+}
+
+uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& models, const ImageBake& bake,
+                const ImageSet& set) {
+    Key key;
+    add_models(models, key), add_planting(tiles, planting, key);
+    key.add_row(bytes_of_head(set));
+    const SampleOptions& sampling = bake.sampling;
+    key.add(sampling.unseen_goal), key.add(sampling.fixed_rays), key.add(sampling.most_rays);
+    key.add(uint64_t(sampling.least_eyes) << 32 | sampling.rays_per_eye);
+    for (const glm::vec3& v : {bake.light.to_sun, bake.light.sun, bake.light.sky, bake.light.ground})
+        key.add(v.x), key.add(v.y), key.add(v.z);
+    key.add(bake.light.sun_radius_deg), key.add(uint64_t(bake.light.sun_rays) << 32 | bake.light.sky_rays);
+    key.add(uint64_t(bake.neighbourhoods) << 32 | bake.judged_views), key.add(bake.memory_bytes), key.add(bake.seed);
+    return key.value();
+}
+
+// The images of one tile in one context: what is done by several threads.
+class TileBake {
+  public:
+    TileBake(const Models& models, const ImageBake& bake, const ImageSet& set) : models_(models), bake_(bake), set_(set) {}
+    // foreign: of other neighbours, to be judged among; or null.
+    Result<Shard> image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const;
+
+  private:
+    std::vector<glm::vec3> colours_of(std::span<const Stage> stages, const Sampled& sampled, uint64_t seed) const;
+    const Models& models_;
+    const ImageBake& bake_;
+    const ImageSet& set_;
+};
+
+std::vector<glm::vec3> TileBake::colours_of(std::span<const Stage> stages, const Sampled& sampled, uint64_t seed) const {
+    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, bake_.light, seed);
+    std::vector<glm::vec3> colours;
+    for (const Sample& sample : sampled.samples) colours.push_back(sample.albedo);
+    return colours;
+}
+
+Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const {
+    auto index = int64_t(index_of(set_, which));
+    SampleOptions options = bake_.sampling;
+    options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
+    // A coarse image needs many eyes more than many rays of each.
+    uint32_t side = set_.levels[which.level].side_px;
+    if (options.fixed_rays == 0) options.rays_per_eye = std::clamp(4 * side * side, kLeastRaysPerEye, options.rays_per_eye);
+    Sampled all = sampled(models_, stages, wedge_of(set_, which.level, which.direction), options);
+    Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, hash_of(bake_.seed, kLightStream, index, 0)));
+    auto bytes = packed(set_, which.level, ldi);
+    if (!bytes) return tl::unexpected(bytes.error());
+    Shard shard{std::move(*bytes), all.rays, all.hits, all.eyes, {}, {}};
+    if (bake_.judged_views > 0) {
+        Judging judging;
+        judging.views = bake_.judged_views, judging.seed = hash_of(bake_.seed, kJudgeStream, index, 0);
+        shard.judgement = judged(models_, stages[0], set_, which, ldi, bake_.light, judging);
+        if (foreign) shard.foreign = judged(models_, *foreign, set_, which, ldi, bake_.light, judging);
+    }
+    return shard;
+}
+
+class SetBake {
+  public:
+    SetBake(const TileSet& tiles, const Planting& planting, const Models& models, const ImageBake& bake, const ImageSet& set)
+        : tiles_(tiles), planting_(planting), models_(models), bake_(bake), set_(set), one_(models, bake, set) {}
+    Result<ImageReport> run(container::Writer& writer, const std::function<void(double)>& progress);
+
+  private:
+    // Those to sample from and, where images are judged, one more, of other neighbours.
+    Result<std::vector<Stage>> stages_of(uint32_t context, uint32_t tile) const;
+    size_t sampled_stages(uint32_t context) const { return context == 1 ? 1 : std::max(1u, bake_.neighbourhoods); }
+    // done: called by this thread with the share of the tile's images.
+    Result<void> bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards, const std::function<void(double)>& done);
+    Result<void> bake_all(ImageWriter* images, const std::function<void(double)>& progress);
+    void add_rows(uint64_t first, const std::vector<Shard>& shards);
+
+    const TileSet& tiles_;
+    const Planting& planting_;
+    const Models& models_;
+    const ImageBake& bake_;
+    const ImageSet& set_;
+    TileBake one_;
+    Shards kept_;
+    ImageReport report_;
+};
+
+Result<std::vector<Stage>> SetBake::stages_of(uint32_t context, uint32_t tile) const {
+    std::vector<Stage> stages;
+    size_t count = sampled_stages(context) + (context == 0 && bake_.judged_views > 0 ? 1 : 0);
+    for (size_t n = 0; n < count; ++n) {
+        auto around =
+            context == 1 ? alone(tile) : neighbourhood(tiles_, tile, hash_of(bake_.seed, kNeighbourStream, tile, int64_t(n)));
+        auto stage = stage_of(models_, copies_of(tiles_, planting_, around), bake_.memory_bytes / count);
+        if (!stage) return tl::unexpected(stage.error());
+        stages.push_back(std::move(*stage));
+    }
+    return stages;
+}
+
+Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards,
+                                const std::function<void(double)>& done) {
+    uint64_t first = index_of(set_, {context, tile, 0, 0});
+    std::vector<size_t> missing;
+    for (size_t i = 0; i < shards.size(); ++i) {
+        if ((first + i) % bake_.part_count != bake_.part) continue;
+        if (auto kept = kept_.find(first + i))
+            shards[i] = std::move(*kept), ++report_.taken_from_parts;
+        else
+            missing.push_back(i);
+    }
+    report_.made += missing.size();
+    if (missing.empty()) return {};
+    auto stages = stages_of(context, tile);
+    if (!stages) return tl::unexpected(stages.error());
+
+    std::mutex mutex;
+    Result<void> outcome;
+    std::atomic<size_t> finished = 0;
+    auto caller = std::this_thread::get_id();
+    parallel_ranges(missing.size(), 1, [&](size_t m, size_t) {
+        auto fail = [&](const Error& error) {
+            std::lock_guard lock(mutex);
+            if (outcome) outcome = tl::unexpected(error);
+        };
+        try {
+            size_t own = sampled_stages(context);
+            const Stage* foreign = stages->size() > own ? &stages->back() : nullptr;
+            auto shard = one_.image(std::span(*stages).first(own), foreign, which_of(set_, first + missing[m]));
+            if (!shard) return fail(shard.error());
+            if (auto kept = kept_.keep(first + missing[m], *shard); !kept) return fail(kept.error());
+            shards[missing[m]] = std::move(*shard);
+            size_t count = ++finished;
+            if (std::this_thread::get_id() == caller) done(double(count) / double(missing.size()));
+        } catch (const std::bad_alloc&) {
+            fail({Exit::impossible, kNoMemory});
+        }
+    });
+    return outcome;
+}
+
+void SetBake::add_rows(uint64_t first, const std::vector<Shard>& shards) {
+    for (size_t i = 0; i < shards.size(); ++i) {
+        const Shard& shard = shards[i];
+        report_.rows.push_back({which_of(set_, first + i), shard.packed.sample_count, shard.packed.bytes.size(), shard.rays,
+                                shard.hits, shard.eyes, double(shard.packed.unseen_share), shard.judgement, shard.foreign});
+    }
+}
+
+Result<void> SetBake::bake_all(ImageWriter* images, const std::function<void(double)>& progress) {
+    uint64_t of_tile = set_.levels.size() * set_.direction_count, tiles = uint64_t(set_.context_count) * set_.tile_count;
+    for (uint64_t t = 0; t < tiles; ++t) {
+        auto done = [&](double share) { progress((double(t) + share) / double(tiles)); };
+        std::vector<Shard> shards(of_tile);
+        if (auto baked = bake_tile(uint32_t(t / set_.tile_count), uint32_t(t % set_.tile_count), shards, done); !baked)
+            return baked;
+        if (!images) continue;
+        for (const Shard& shard : shards)
+            if (auto added = images->add(shard.packed); !added) return added;
+        add_rows(t * of_tile, shards);
+    }
+    return {};
+}
+
+Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<void(double)>& progress) {
+    auto begin = std::chrono::steady_clock::now();
+    auto kept = Shards::in(bake_.parts_folder, key_of(tiles_, planting_, models_, bake_, set_));
+    if (!kept) return tl::unexpected(kept.error());
+    kept_ = std::move(*kept), report_.set = set_, report_.parts = kept_;
+    if (bake_.part_count > 1) {
+        if (auto baked = bake_all(nullptr, progress); !baked) return tl::unexpected(baked.error());
+    } else {
+        auto images = ImageWriter::begin(writer, set_);
+        if (!images) return tl::unexpected(images.error());
+        if (auto baked = bake_all(&*images, progress); !baked) return tl::unexpected(baked.error());
+        if (auto ended = images->end(); !ended) return tl::unexpected(ended.error());
+    }
+    progress(1);
+    report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(report_);
+}
+
+}  // namespace
+
+void take_paper_constants(ImageBake& bake) {
+    bake.levels.constants = Constants::paper;
+    bake.sampling.fixed_rays = kPaperRays, bake.sampling.rays_per_eye = uint32_t(kPaperRays / kPaperEyes);
+    bake.neighbourhoods = 1;
+}
+
+glm::dvec2 heights_of(const Models& models, const Planting& planting) {
+    double low = 0, high = 0.1;
+    std::vector<glm::dvec2> of_models;
+    for (const rays::Mesh& mesh : models.meshes) {
+        glm::dvec2 range(0);
+        for (const glm::vec3& position : mesh.positions_m)
+            range = {std::min(range.x, double(position.z)), std::max(range.y, double(position.z))};
+        of_models.push_back(range);
+    }
+    for (const auto& objects : planting.tiles)
+        for (const Planted& object : objects) {
+            low = std::min(low, of_models[object.model].x * double(object.scale));
+            high = std::max(high, of_models[object.model].y * double(object.scale));
+        }
+    // Rays end in 32-bit floats.
+    double slack = 1e-5 * (high - low);
+    return {low < 0 ? low - slack : 0, high + slack};
+}
+
+Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles, const Planting& planting, const Models& models,
+                                const ImageBake& bake, const std::function<void(double)>& progress) {
+    LevelOptions levels = bake.levels;
+    glm::dvec2 heights = heights_of(models, planting);
+    levels.set.tile_m = planting.tile_size_m, levels.set.low_m = heights.x, levels.set.high_m = heights.y;
+    levels.set.tile_count = uint32_t(tiles.tiles.size()), levels.set.context_count = bake.has_border_images ? 2 : 1;
+    levels.set.has_normals = bake.is_relit;
+    levels.set.to_sun = bake.is_relit ? glm::dvec3(0) : glm::normalize(glm::dvec3(bake.light.to_sun));
+    auto set = leveled(levels);
+    if (!set) return tl::unexpected(set.error());
+    return SetBake(tiles, planting, models, bake, *set).run(writer, progress);
+}
+
+}  // namespace overlook::wang_ldi

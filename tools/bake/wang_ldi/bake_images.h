@@ -1,0 +1,60 @@
+// All layered depth images of a tile set, into a file.
+//
+// Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 4.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/bake/wang_ldi/judge.h"
+#include "tools/bake/wang_ldi/levels.h"
+#include "tools/bake/wang_ldi/shards.h"
+
+namespace overlook::wang_ldi {
+
+struct ImageBake {
+    LevelOptions levels;  // the set's tile size, heights and counts are filled in from the planting
+    SampleOptions sampling;
+    Light light;
+    uint32_t neighbourhoods = 1;                // that a tile is sampled among, in turn
+    bool has_border_images = false;             // besides, each tile alone
+    bool is_relit = false;                      // colours unlit, with normals
+    uint32_t judged_views = 0;                  // of each image; 0: none is judged
+    uint64_t memory_bytes = uint64_t(4) << 30;  // for rays: beyond it, a tile and its neighbours are kept as instances
+    uint64_t seed = 1;
+    std::string parts_folder;  // of Shards; empty: nothing is kept
+    // Only images whose index leaves `part` when divided by part_count; others are not made, and no sections are written. For
+    // several machines, which share the folder or bring its files together.
+    uint64_t part = 0, part_count = 1;
+};
+// What the paper's constants change: levels and directions, 2.5 million rays an image, one neighbourhood.
+void take_paper_constants(ImageBake& bake);
+
+struct ImageRow {
+    Which which;
+    uint32_t samples = 0;
+    uint64_t stored_bytes = 0, rays = 0, hits = 0, eyes = 0;
+    double unseen_share = 0;
+    Judgement judgement;  // among the neighbours that the tile was sampled among
+    Judgement foreign;    // among others
+};
+struct ImageReport {
+    ImageSet set;
+    std::vector<ImageRow> rows;     // in the order of index_of; none of a part
+    uint64_t made = 0;              // images that were baked anew
+    uint64_t taken_from_parts = 0;  // of rows
+    double seconds = 0;
+    Shards parts;  // to be removed (remove_all) when the file is committed
+};
+
+// How low and how high anything stands on the tiles, at least 0.1 m apart.
+glm::dvec2 heights_of(const Models& models, const Planting& planting);
+
+// Adds the sections WLDS and WLDI (unless it is a part). planting.models are models.meshes, one by one. A pure function of all
+// but parts_folder, whatever the number of threads. `progress` is called with the share done, 0..1, from this thread. Fails as
+// leveled() and stage_of() do, with Exit::impossible if memory does not suffice, and as the writer does.
+Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles, const Planting& planting, const Models& models,
+                                const ImageBake& bake, const std::function<void(double)>& progress);
+
+}  // namespace overlook::wang_ldi

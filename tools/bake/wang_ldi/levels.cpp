@@ -1,0 +1,98 @@
+#include "tools/bake/wang_ldi/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "formats/numbers.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr std::array<uint32_t, 7> kPaperSides_px{468, 232, 151, 111, 88, 73, 62};
+constexpr uint32_t kPaperDirections = 8;
+constexpr uint32_t kLeastSide_px = 4;
+constexpr double kNearestTiles = 2.5, kFarthestTiles = 40;
+
+Level level_of(const LevelOptions& options, uint32_t side_px, double nearest_m) {
+    double step_m = options.set.tile_m / side_px / options.steps_per_pixel;
+    double least_m = (options.set.high_m - options.set.low_m) / 65534;
+    return {side_px, float(nearest_m), float(std::max(step_m, least_m)), 1};
+}
+
+void take_paper(const LevelOptions& options, ImageSet& set) {
+    for (size_t k = 0; k < kPaperSides_px.size(); ++k)
+        set.levels.push_back(level_of(options, kPaperSides_px[k], (double(k) + 0.5) * set.tile_m));
+    set.cell.nearest_m = 0.5 * set.tile_m, set.cell.farthest_m = 7.5 * set.tile_m;
+    set.direction_count = kPaperDirections;
+}
+
+double side_wanted(const ImageSet& set, double distance_m) {
+    return set.tile_m * set.cell.focal_px / (set.cell.error_px * nearest_of_tile_m(set, distance_m));
+}
+
+// Where a level begins whose pixels are `ratio` times as wide as at distance_m.
+double next_distance_m(const ImageSet& set, double distance_m, double ratio) {
+    double wanted = ratio * nearest_of_tile_m(set, distance_m), low = distance_m, high = 2 * ratio * (distance_m + set.tile_m);
+    while (nearest_of_tile_m(set, high) < wanted) high *= 2;
+    for (int round = 0; round < 60; ++round) {
+        double middle = (low + high) / 2;
+        (nearest_of_tile_m(set, middle) < wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+Result<void> choose(const LevelOptions& options, ImageSet& set) {
+    double at = set.cell.nearest_m, rim = set.tile_m / std::sqrt(2.0);
+    if (at <= rim)
+        return bad_command(
+            "tiles begin at {} m from the eye, within a tile of {} m; --nearest-m {} at least, nearer ones are drawn as geometry",
+            at, set.tile_m, std::ceil(rim * 100 + 1) / 100);
+    if (double most = side_wanted(set, at); most > kMostSide_px)
+        return bad_command(
+            "a pixel error of {} px needs {} pixels along a tile, {} are possible; ask for more error or a greater nearest "
+            "distance",
+            set.cell.error_px, with_commas(uint64_t(most)), with_commas(kMostSide_px));
+    while (at < set.cell.farthest_m && set.levels.size() < kMostLevels) {
+        auto side = uint32_t(std::ceil(side_wanted(set, at)));
+        if (!set.levels.empty() && side >= set.levels.back().side_px) break;
+        if (side < kLeastSide_px) break;
+        set.levels.push_back(level_of(options, side, at));
+        at = next_distance_m(set, at, options.level_ratio);
+    }
+    if (set.levels.empty()) set.levels.push_back(level_of(options, kLeastSide_px, at));
+    double radius_px = rim * set.cell.focal_px / set.cell.nearest_m;
+    set.direction_count = directions_for(radius_px, options.direction_px);
+    return {};
+}
+
+}  // namespace
+
+double nearest_of_tile_m(const ImageSet& set, double distance_m) {
+    double ground = std::max(0.0, distance_m - set.tile_m / std::sqrt(2.0));
+    double above = std::max({0.0, set.cell.eye_low_m - set.high_m, set.low_m - set.cell.eye_high_m});
+    return std::max(std::hypot(ground, above), 1e-3);
+}
+
+uint32_t directions_for(double radius_px, double direction_px) {
+    uint32_t n = 1;
+    // A wedge of half the circle or more turns the rim by all of its radius.
+    auto turn_px = [&](uint32_t count) { return count < 3 ? radius_px : radius_px * std::sin(M_PI / count); };
+    while (n < kMostDirections && turn_px(n) > direction_px) ++n;
+    return n;
+}
+
+Result<ImageSet> leveled(const LevelOptions& options) {
+    ImageSet set = options.set;
+    set.levels.clear();
+    if (options.constants == Constants::paper) {
+        take_paper(options, set);
+        return set;
+    }
+    if (set.cell.nearest_m == 0) set.cell.nearest_m = kNearestTiles * set.tile_m;
+    if (set.cell.farthest_m == 0) set.cell.farthest_m = std::max(kFarthestTiles * set.tile_m, set.cell.nearest_m);
+    if (auto chosen = choose(options, set); !chosen) return tl::unexpected(chosen.error());
+    return set;
+}
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,36 @@
+// How finely tiles are sampled at which distance, and from how many directions.
+//
+// Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 4 (a level for each of the first
+// seven tiles outwards, such that a splat is a pixel; eight directions).
+#pragma once
+
+#include "formats/result.h"
+#include "formats/wang_ldi.h"
+
+namespace overlook::wang_ldi {
+
+enum class Constants { chosen, paper };
+
+struct LevelOptions {
+    Constants constants = Constants::chosen;
+    // Cell, the tile, heights, counts and flags of the set that is asked for; its levels and directions are what is chosen.
+    // A cell's distances of 0: chosen, from 2.5 to 40 sides of a tile.
+    ImageSet set;
+    double level_ratio = 1.5;    // a level's pixels are so much wider than the next finer one's; above 1, up to 4
+    double direction_px = 96;    // a tile's rim may turn by so many pixels within a wedge, at the nearest distance
+    double steps_per_pixel = 4;  // of height in a pixel's width, where 16 bits suffice
+};
+
+// The least distance from an eye of the cell to anything in a tile whose middle is `distance_m` away on the ground.
+double nearest_of_tile_m(const ImageSet& set, double distance_m);
+
+// The smallest n such that radius_px * sin(pi / n) is at most direction_px: 1 .. kMostDirections.
+uint32_t directions_for(double radius_px, double direction_px);
+
+// The set with its levels and directions. Chosen: a pixel of a level is error_px on the screen where the level begins. Paper:
+// 468, 232, 151, 111, 88, 73 and 62 pixels for the rings at one to seven tiles, 8 directions. Fails with Exit::bad_command:
+// "tiles begin at 2 m from the eye, within a tile of 4 m; --nearest-m 3 at least, nearer ones are drawn as geometry", "a pixel
+// error of 0.01 px needs 20,000 pixels along a tile, 4,096 are possible; ask for more error or a greater nearest distance".
+Result<ImageSet> leveled(const LevelOptions& options);
+
+}  // namespace overlook::wang_ldi

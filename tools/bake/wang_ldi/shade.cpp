@@ -1,0 +1,111 @@
+#include "tools/bake/wang_ldi/shade.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "runtime/wang_ldi/random.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr uint64_t kPatternStream = 21;
+constexpr float kLift = 1e-4f;  // off the surface, in metres: rays of 32 bits do not meet it again
+
+// A frame about a direction of length 1 (T. Duff and others, Building an Orthonormal Basis, Revisited, 2017).
+glm::mat3 frame_of(const glm::vec3& n) {
+    float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    return {glm::vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::vec3(b, sign + n.y * n.y * a, -n.y), n};
+}
+
+// Places i of count on the unit square, evenly spread, moved by a shift: i / count against the golden ratio.
+glm::vec2 place_of(uint32_t i, uint32_t count, const glm::vec2& shift) {
+    float x = (float(i) + 0.5f) / float(count) + shift.x, y = float(i) * 0.618033989f + shift.y;
+    return {x - std::floor(x), y - std::floor(y)};
+}
+
+// As many from each direction as its cosine, about the frame's third axis.
+glm::vec3 cosine_direction(const glm::mat3& frame, const glm::vec2& at) {
+    float radius = std::sqrt(at.x), angle = 6.28318531f * at.y;
+    return frame * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0f, 1 - at.x)));
+}
+
+struct Rays {
+    std::vector<rays::Ray> rays;
+    std::vector<uint8_t> blocked;
+
+    void add(const glm::vec3& from, const glm::vec3& along) { rays.push_back({from, along}); }
+    void shoot(const rays::Scene& scene) {
+        blocked.resize(rays.size());
+        scene.are_blocked(rays, blocked);
+    }
+};
+
+// What sky and ground send to a side of a surface, over what they would if nothing were in the way.
+glm::vec3 around(const rays::Scene& scene, const glm::vec3& at, const glm::vec3& side, const glm::vec3& face, uint32_t count,
+                 const Light& light, const glm::vec2& shift) {
+    Rays rays;
+    glm::mat3 frame = frame_of(side);
+    std::vector<uint8_t> is_sky;
+    glm::vec3 sum(0);
+    for (uint32_t i = 0; i < count; ++i) {
+        glm::vec3 along = cosine_direction(frame, place_of(i, count, shift));
+        if (glm::dot(along, face) <= 0) continue;  // the smooth normal leans over the face's own horizon
+        rays.add(at, along), is_sky.push_back(along.z > 0);
+    }
+    rays.shoot(scene);
+    for (size_t i = 0; i < is_sky.size(); ++i)
+        if (!rays.blocked[i]) sum += is_sky[i] ? light.sky : light.ground;
+    return sum / float(count);
+}
+
+// Share of the sun that is seen from one side.
+float sun_share(const rays::Scene& scene, const glm::vec3& at, const glm::vec3& face, const Light& light,
+                const glm::vec2& shift) {
+    Rays rays;
+    glm::mat3 frame = frame_of(glm::normalize(light.to_sun));
+    auto tangent = float(std::tan(light.sun_radius_deg * 0.017453292519943295));
+    for (uint32_t i = 0; i < light.sun_rays; ++i) {
+        glm::vec2 place = place_of(i, light.sun_rays, shift);
+        float radius = tangent * std::sqrt(place.x), angle = 6.28318531f * place.y;
+        glm::vec3 along = frame * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), 1);
+        if (glm::dot(along, face) > 0) rays.add(at, along);
+    }
+    rays.shoot(scene);
+    auto seen = std::count(rays.blocked.begin(), rays.blocked.end(), uint8_t(0));
+    return float(seen) / float(light.sun_rays);
+}
+
+}  // namespace
+
+glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed) {
+    Random random(seed);
+    glm::vec2 shift(float(random.next_unit()), float(random.next_unit()));
+    glm::vec3 to_sun = glm::normalize(light.to_sun), front = point.at_m + kLift * point.face,
+              back = point.at_m - kLift * point.face;
+    float facing = glm::dot(point.normal, to_sun), share = point.transmission;
+    glm::vec3 seen = around(scene, front, point.normal, point.face, light.sky_rays, light, shift);
+    if (facing > 0) seen += light.sun * (facing * sun_share(scene, front, point.face, light, shift));
+    if (share > 0) {
+        glm::vec3 behind = around(scene, back, -point.normal, -point.face, light.sky_rays, light, shift);
+        if (facing < 0) behind += light.sun * (-facing * sun_share(scene, back, -point.face, light, shift));
+        seen += share * behind;
+    }
+    return point.albedo * seen;
+}
+
+std::vector<glm::vec3> lit_samples(const Models& models, std::span<const Stage> stages, std::span<const Sample> samples,
+                                   const Light& light, uint64_t seed) {
+    std::vector<glm::vec3> colours;
+    colours.reserve(samples.size());
+    for (const Sample& sample : samples) {
+        const Stage& stage = stages[sample.stage];
+        Point point = point_of(models, stage.copies, sample.hit, sample.seen_along);
+        point.albedo = sample.albedo;
+        uint64_t own = hash_of(seed, kPatternStream, sample.pixel, int64_t(std::bit_cast<uint32_t>(sample.height_m)));
+        colours.push_back(lit(stage.scene, point, light, own));
+    }
+    return colours;
+}
+
+}  // namespace overlook::wang_ldi

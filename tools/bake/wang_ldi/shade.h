@@ -1,0 +1,33 @@
+// Light on samples, once each: the sun with a soft shadow, the sky as far as it is seen, leaves that let light through.
+//
+// Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 4 (samples are lit offline, so that
+// any light may be simulated); S. Zhukov, A. Iones, G. Kronin, An Ambient Light Illumination Model, 1998 (how much of the sky a
+// place sees).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "tools/bake/wang_ldi/sample.h"
+
+namespace overlook::wang_ldi {
+
+struct Light {
+    glm::vec3 to_sun{0.45f, 0.35f, 0.82f};   // any length but 0; z > 0
+    double sun_radius_deg = 1.5;             // how far the sun reaches to each side of its middle
+    glm::vec3 sun{0.85f, 0.8f, 0.7f};        // what a white surface that faces it sends back of it, linear
+    glm::vec3 sky{0.3f, 0.36f, 0.45f};       // and of the whole sky
+    glm::vec3 ground{0.03f, 0.035f, 0.02f};  // and of the ground, which lies below the horizon everywhere
+    uint32_t sun_rays = 8, sky_rays = 32;    // of each sample: multiples of 1 .. 256
+};
+
+// What a place sends to the viewer, linear. Rays go from `point` into the stage; `seed` turns the pattern of their directions.
+glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed);
+
+// [samples] linear colours. seed: of all patterns; each sample's own follows from its pixel and height.
+std::vector<glm::vec3> lit_samples(const Models& models, std::span<const Stage> stages, std::span<const Sample> samples,
+                                   const Light& light, uint64_t seed);
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,159 @@
+#include "tools/bake_wang_ldi/images.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "tools/bake/mesh_input.h"
+#include "tools/bake/wang_ldi/model_of_mesh.h"
+
+namespace overlook::bake_wang_ldi {
+namespace {
+
+void add_cell_options(CLI::App& app, ImageArgs& args) {
+    app.add_option(
+           "--constants", args.constants,
+           "chosen: levels, directions and rays follow from the options below. paper: 468 to 62 pixels for the rings at one to "
+           "seven tiles, 8 directions, 2.5 million rays an image")
+        ->check(CLI::IsMember({"chosen", "paper"}))
+        ->capture_default_str();
+    app.add_option("--height-px", args.height_px, "Of the picture that images are made for: pixels from top to bottom")
+        ->check(command::number_in(1, 1e5))
+        ->capture_default_str();
+    app.add_option("--fov-y-deg", args.fov_y_deg, "Its field of view from top to bottom")
+        ->check(command::number_in(1, 170))
+        ->capture_default_str();
+    app.add_option("--error-px", args.error_px, "How wide a sample may be in it where its level begins")
+        ->check(command::number_in(0.01, 1000))
+        ->capture_default_str();
+    app.add_option("--eye-low-m", args.eye_low_m, "Eyes are so high above the ground at least")
+        ->check(command::number_in(-1e5, 1e5))
+        ->capture_default_str();
+    app.add_option("--eye-high-m", args.eye_high_m, "And at most")->check(command::number_in(-1e5, 1e5))->capture_default_str();
+    app.add_option("--nearest-m", args.nearest_m, "From an eye to the middle of a tile on the ground (default: 2.5 tiles)")
+        ->check(command::number_in(0, 1e5));
+    app.add_option("--farthest-m", args.farthest_m, "Likewise, at most (default: 40 tiles)")->check(command::number_in(0, 1e6));
+}
+
+void add_sampling_options(CLI::App& app, ImageArgs& args) {
+    app.add_option("--level-ratio", args.level_ratio, "How much wider a level's samples are than those of the one before")
+        ->check(command::number_in(1.05, 4))
+        ->capture_default_str();
+    app.add_option("--direction-px", args.direction_px,
+                   "By so many pixels a tile's rim may turn within the images of one direction")
+        ->check(command::number_in(0.1, 1e5))
+        ->capture_default_str();
+    app.add_option("--unseen", args.unseen, "Rays stop when so much of what the eyes see is not yet met, as is estimated")
+        ->check(command::number_in(1e-4, 0.9))
+        ->capture_default_str();
+    app.add_option("--neighbourhoods", args.neighbourhoods, "Of other tiles, that each tile is sampled among")
+        ->check(CLI::Range(1u, 16u))
+        ->capture_default_str();
+    command::add_bytes_option(
+        app, "--ray-memory", args.ray_memory_bytes,
+        "A tile and its neighbours that take more for rays are kept as instances: slower, and the last bit of "
+        "a sample may differ (default: 4G)");
+    app.add_flag("--border-images", args.has_border_images, "Besides, images of each tile alone, for where the planting ends");
+    app.add_option("--judge", args.judged_views, "Warp each image for so many views and say how it differs from what rays see")
+        ->check(CLI::Range(0u, 10000u));
+}
+
+void add_light_options(CLI::App& app, ImageArgs& args) {
+    app.add_option("--light", args.light, "baked: sun and sky in the colours. later: colours as they are, and normals")
+        ->check(CLI::IsMember({"baked", "later"}))
+        ->capture_default_str();
+    app.add_option("--sun-heading-deg", args.sun_heading_deg, "Where the sun stands, clockwise from north")
+        ->check(command::number_in(-360, 360))
+        ->capture_default_str();
+    app.add_option("--sun-elevation-deg", args.sun_elevation_deg, "And how high")
+        ->check(command::number_in(1, 90))
+        ->capture_default_str();
+    app.add_option("--sun-rays", args.sun_rays, "Of each sample")->check(CLI::Range(1u, 256u))->capture_default_str();
+    app.add_option("--sky-rays", args.sky_rays, "Of each sample")->check(CLI::Range(1u, 256u))->capture_default_str();
+    app.add_option("--leaf-transmission", args.leaf_transmission, "How much light two-sided surfaces let through")
+        ->check(command::number_in(0, 1))
+        ->capture_default_str();
+    app.add_option("--parts", args.parts, "Folder of the images that are done, until all are (default: OUTPUT.parts)");
+    app.add_option("--part", args.part,
+                   "K/N: bake the K-th of N parts into the folder of --parts and no file; when all are there, bake without it");
+}
+
+Result<wang_ldi::Models> read_models(const GroundDone& ground, float transmission) {
+    wang_ldi::Models models;
+    for (const std::string& path : ground.recipe.files) {
+        auto file = mesh::open_mesh(path);
+        if (!file) return tl::unexpected(file.error());
+        if (auto added = wang_ldi::add_model(file->mesh, {transmission}, models); !added)
+            return tl::unexpected(Error{added.error().exit, path + ": " + added.error().message});
+    }
+    return models;
+}
+
+// "2/5": part 1 of 5.
+bool parse_part(const std::string& text, uint64_t& part, uint64_t& count) {
+    const char *at = text.data(), *end = at + text.size();
+    auto first = std::from_chars(at, end, part);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return false;
+    auto second = std::from_chars(first.ptr + 1, end, count);
+    if (second.ec != std::errc() || second.ptr != end || part < 1 || part > count || count > 1'000'000) return false;
+    --part;
+    return true;
+}
+
+}  // namespace
+
+void add_image_options(CLI::App& app, ImageArgs& args) {
+    add_cell_options(app, args);
+    add_sampling_options(app, args);
+    add_light_options(app, args);
+}
+
+Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::string& output, uint64_t seed) {
+    wang_ldi::ImageBake bake;
+    if (args.eye_high_m < args.eye_low_m)
+        return bad_command("--eye-high-m {}: is below --eye-low-m {}", args.eye_high_m, args.eye_low_m);
+    if (args.farthest_m > 0 && args.farthest_m < args.nearest_m)
+        return bad_command("--farthest-m {}: is nearer than --nearest-m {}", args.farthest_m, args.nearest_m);
+    if (!args.part.empty() && !parse_part(args.part, bake.part, bake.part_count))
+        return bad_command("--part {}: K/N is wanted, K from 1 to N", args.part);
+    double focal_px = args.height_px / (2 * std::tan(args.fov_y_deg * M_PI / 360));
+    bake.levels.set.cell = {args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m, focal_px, args.error_px};
+    bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
+    bake.sampling.unseen_goal = args.unseen;
+    bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views;
+    bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
+    double heading = args.sun_heading_deg * M_PI / 180, elevation = args.sun_elevation_deg * M_PI / 180;
+    bake.light.to_sun =
+        glm::vec3(std::sin(heading) * std::cos(elevation), std::cos(heading) * std::cos(elevation), std::sin(elevation));
+    bake.light.sun_rays = args.sun_rays, bake.light.sky_rays = args.sky_rays;
+    bake.memory_bytes = args.ray_memory_bytes;
+    bake.seed = seed, bake.parts_folder = args.parts.empty() ? output + ".parts" : args.parts;
+    if (args.constants == "paper") take_paper_constants(bake);
+    return bake;
+}
+
+Result<wang_ldi::ImageReport> add_images(container::Writer& writer, const GroundDone& ground, const ImageArgs& args,
+                                         const wang_ldi::ImageBake& bake, const command::Common& common) {
+    auto models = read_models(ground, float(args.leaf_transmission));
+    if (!models) return tl::unexpected(models.error());
+    command::Progress progress(common, "sampling");
+    return wang_ldi::bake_images(writer, ground.ground.set, ground.ground.planting, *models, bake,
+                                 [&](double share) { progress.set(share); });
+}
+
+void add_image_options_in_words(const ImageArgs& args, container::Provenance& provenance) {
+    auto add = [&](const char* name, const std::string& value) { provenance.options.emplace_back(name, value); };
+    add("constants", args.constants), add("light", args.light);
+    add("view", fmt::format("{} px, {} deg, {} px allowed", args.height_px, args.fov_y_deg, args.error_px));
+    add("eyes", fmt::format("{} to {} m up, {} to {} m away", args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m));
+    add("level-ratio", fmt::format("{}", args.level_ratio)), add("direction-px", fmt::format("{}", args.direction_px));
+    add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
+    if (args.light == "baked")
+        add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
+                               args.sun_elevation_deg, args.sun_rays, args.sky_rays));
+    add("leaf-transmission", fmt::format("{}", args.leaf_transmission));
+    if (args.has_border_images) add("border-images", "true");
+    if (args.ray_memory_bytes != ImageArgs().ray_memory_bytes) add("ray-memory", fmt::format("{}", args.ray_memory_bytes));
+}
+
+}  // namespace overlook::bake_wang_ldi

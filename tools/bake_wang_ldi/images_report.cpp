@@ -1,0 +1,116 @@
+#include <nlohmann/json.hpp>
+
+#include "formats/numbers.h"
+#include "tools/bake_wang_ldi/images.h"
+
+namespace overlook::bake_wang_ldi {
+namespace {
+
+using nlohmann::ordered_json;
+using wang_ldi::ImageRow;
+using wang_ldi::Judgement;
+
+// Sums over images; errors weighted by their pixels, the greatest 99th percentile.
+struct Total {
+    uint64_t images = 0, samples = 0, bytes = 0, rays = 0, hits = 0;
+    double unseen_most = 0, unseen_sum = 0;
+    Judgement own, foreign;
+
+    static void add(const Judgement& from, Judgement& to) {
+        double pixels = double(to.pixels + from.pixels);
+        if (pixels > 0) to.mean_error = (to.mean_error * double(to.pixels) + from.mean_error * double(from.pixels)) / pixels;
+        to.pixels += from.pixels, to.holes += from.holes, to.deeper += from.deeper, to.nearer += from.nearer;
+        to.p99_error = std::max(to.p99_error, from.p99_error);
+    }
+    void add(const ImageRow& row) {
+        ++images, samples += row.samples, bytes += row.stored_bytes, rays += row.rays, hits += row.hits;
+        unseen_most = std::max(unseen_most, row.unseen_share), unseen_sum += row.unseen_share;
+        add(row.judgement, own), add(row.foreign, foreign);
+    }
+};
+
+ordered_json judgement_json(const Judgement& judgement) {
+    auto pixels = double(std::max<uint64_t>(1, judgement.pixels));
+    return {{"pixels", judgement.pixels},
+            {"hole_share", double(judgement.holes) / pixels},
+            {"deeper_share", double(judgement.deeper) / pixels},
+            {"nearer_share", double(judgement.nearer) / pixels},
+            {"mean_luma_error", judgement.mean_error},
+            {"p99_luma_error", judgement.p99_error}};
+}
+
+ordered_json total_json(const Total& total) {
+    ordered_json json{{"images", total.images},
+                      {"samples", total.samples},
+                      {"bytes", total.bytes},
+                      {"bytes_per_sample", total.samples > 0 ? double(total.bytes) / double(total.samples) : 0},
+                      {"rays", total.rays},
+                      {"hits", total.hits},
+                      {"unseen_share_mean", total.images > 0 ? total.unseen_sum / double(total.images) : 0},
+                      {"unseen_share_most", total.unseen_most}};
+    if (total.own.pixels > 0) json["among_its_neighbours"] = judgement_json(total.own);
+    if (total.foreign.pixels > 0) json["among_foreign_neighbours"] = judgement_json(total.foreign);
+    return json;
+}
+
+Total total_of(const wang_ldi::ImageReport& report) {
+    Total total;
+    for (const ImageRow& row : report.rows) total.add(row);
+    return total;
+}
+
+}  // namespace
+
+ordered_json images_json(const wang_ldi::ImageReport& report) {
+    ordered_json json = total_json(total_of(report));
+    json["directions"] = report.set.direction_count, json["contexts"] = report.set.context_count;
+    json["eyes_m"] = {report.set.cell.eye_low_m, report.set.cell.eye_high_m};
+    json["distances_m"] = {report.set.cell.nearest_m, report.set.cell.farthest_m};
+    json["taken_from_parts"] = report.taken_from_parts, json["baked"] = report.made, json["seconds"] = report.seconds;
+    for (uint32_t k = 0; k < report.set.levels.size(); ++k) {
+        const wang_ldi::Level& level = report.set.levels[k];
+        Total of_level;
+        std::vector<Total> of_directions(report.set.direction_count);
+        for (const ImageRow& row : report.rows) {
+            if (row.which.level != k) continue;
+            of_level.add(row), of_directions[row.which.direction].add(row);
+        }
+        ordered_json one{{"side_px", level.side_px}, {"nearest_m", level.nearest_m}, {"height_step_m", level.height_step_m}};
+        one.update(total_json(of_level));
+        for (const Total& total : of_directions)
+            if (total.images > 0) one["by_direction"].push_back(total_json(total));
+        json["levels"].push_back(one);
+    }
+    return json;
+}
+
+void say_images(const wang_ldi::ImageReport& report, const command::Common& common) {
+    if (report.rows.empty()) {
+        command::note(common, fmt::format("{} images baked, {} were there", with_commas(report.made),
+                                          with_commas(report.taken_from_parts)));
+        return;
+    }
+    Total total = total_of(report);
+    command::note(
+        common,
+        fmt::format("{} images of {} levels and {} directions: {} samples, {:.2f} bytes each; {} rays, {:.1f} s", total.images,
+                    report.set.levels.size(), report.set.direction_count, with_commas(total.samples),
+                    double(total.bytes) / double(std::max<uint64_t>(1, total.samples)), with_commas(total.rays), report.seconds));
+    command::note(common,
+                  fmt::format("unseen: {:.2f} % on average, {:.2f} % at most; right for eyes {} to {} m up, {:.1f} to {:.1f} m "
+                              "from a tile's middle",
+                              100 * total.unseen_sum / double(total.images), 100 * total.unseen_most, report.set.cell.eye_low_m,
+                              report.set.cell.eye_high_m, report.set.cell.nearest_m, report.set.cell.farthest_m));
+    if (total.own.pixels > 0) {
+        auto share = [](const Judgement& judgement) {
+            return 100 * double(judgement.holes) / double(std::max<uint64_t>(1, judgement.pixels));
+        };
+        command::note(common,
+                      fmt::format("warped: holes in {:.2f} % of pixels, {:.2f} % among foreign neighbours; luma off by {:.3f}",
+                                  share(total.own), share(total.foreign), total.own.mean_error));
+    }
+    if (report.taken_from_parts > 0)
+        command::detail(common, fmt::format("{} images were done before", with_commas(report.taken_from_parts)));
+}
+
+}  // namespace overlook::bake_wang_ldi
