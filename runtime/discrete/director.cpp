@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 namespace overlook::discrete {
 namespace {
 
 constexpr uint8_t kMostGrainDoublings = 20;
+constexpr double kUnevenShare = 0.01;  // of a frame's triangles, that even frames may draw more than odd ones or fewer
+constexpr double kMostTwice = 0.25;    // of what is divided, drawn on both sides
 
 uint32_t finer(const Transition& transition) {
     return std::min(transition.from, transition.to);
@@ -38,6 +41,7 @@ Director::Director(ChainFacts facts, std::span<const Placement> placements, cons
 
 void Director::place(std::span<const Placement> placements) {
     assert(placements.size() == placements_.size());
+    if (placed_before_.empty()) placed_before_ = placements_;
     placements_.assign(placements.begin(), placements.end());
 }
 
@@ -45,28 +49,83 @@ void Director::change(const FrameOptions& options) {
     options_ = options;
     if (fades(options.variant)) return;
     for (State& state : states_) state.transition = {state.transition.to, state.transition.to, 0};
+    divided_.clear();
 }
 
-int64_t Director::difference(const Transition& transition) const {
+int64_t Director::difference(uint32_t instance, const Transition& transition) const {
+    if (auto found = divided_.find(instance); found != divided_.end()) return found->second.difference;
     return int64_t(facts_.levels[finer(transition)].triangle_count) - int64_t(facts_.levels[coarser(transition)].triangle_count);
 }
 
 // As printed, all instances change their level with the frame; else those that begin go where fewer triangles are.
-void Director::begin(State& state, const Placement& placement, const Selector& selector) {
-    bool is_own = options_.variant == Variant::fsi;
-    state.is_odd = is_own && options_.remedies.splits_parities && balance_ > 0;
-    balance_ += (state.is_odd ? -1 : 1) * difference(state.transition);
-    // Nothing is seen of a change before the new level is drawn.
-    if (is_own && drawn_level(state) == state.transition.from) state.transition.phase = 0;
+// A plane that shares a thing out, if one does it well.
+bool Director::divide(uint32_t instance) {
+    const Placement& placement = placements_[instance];
+    const Transition& transition = states_[instance].transition;
+    const LevelFacts &fine = facts_.levels[finer(transition)], &coarse = facts_.levels[coarser(transition)];
+    glm::dvec3 way_m = way_m_;  // as the thing sees it
+    if (!placed_before_.empty()) way_m -= placement.at(facts_.middle_m) - placed_before_[instance].at(facts_.middle_m);
+    std::optional<Split> split =
+        split_of(fine.bunches, coarse.bunches, placement, facts_.middle_m, facts_.radius_m, eye_m_, way_m);
+    if (!split) return false;
+    glm::dvec3 normal = turn_to_eye(*split, placement, eye_m_);
+    std::vector<TriangleRun> runs;
+    auto count = [&](const LevelFacts& level, bool is_along) {
+        return int64_t(append_side(level.bunches, placement, eye_m_, normal, is_along, runs));
+    };
+    int64_t even = count(fine, true) + count(coarse, false), odd = count(fine, false) + count(coarse, true);
+    auto all = int64_t(fine.triangle_count + coarse.triangle_count);
+    bool pays = std::abs(even - odd) < all / 4 && double(even + odd - all) <= kMostTwice * double(all);
+    if (pays) divided_[instance] = {*split, even - odd};
+    return pays;
+}
+
+// It draws more where less is drawn.
+void Director::take_side(uint32_t instance) {
+    State& state = states_[instance];
+    int64_t more = difference(instance, state.transition);
+    state.is_odd = more < 0 ? balance_ < 0 : balance_ > 0;
+    balance_ += (state.is_odd ? -1 : 1) * more;
+}
+
+// As printed, all instances change their level with the frame; else those that begin go where fewer triangles are, and what they
+// leave uneven is divided, the last first.
+void Director::begin(const Selector& selector) {
+    bool is_own = options_.variant == Variant::fsi, splits = is_own && options_.remedies.splits_parities;
+    for (uint32_t instance : begun_) {
+        states_[instance].is_odd = false;
+        if (splits) take_side(instance);
+    }
+    bool divides = splits && options_.remedies.splits_things;
+    for (size_t i = begun_.size(); i-- > 0 && divides;) {
+        if (double(std::abs(balance_)) <= kUnevenShare * double(last_triangle_count_)) break;
+        uint32_t instance = begun_[i];
+        const State& state = states_[instance];
+        int64_t own = (state.is_odd ? -1 : 1) * difference(instance, state.transition);
+        if (std::abs(balance_ - own) >= std::abs(balance_) || !divide(instance)) continue;
+        balance_ -= own;
+        take_side(instance);
+    }
+    for (uint32_t instance : begun_) {
+        State& state = states_[instance];
+        // Nothing is seen of a change before the new level is drawn.
+        bool is_old = drawn_level(state) == state.transition.from || divided_.contains(instance);
+        if (is_own && is_old) state.transition.phase = 0;
+        suit_grain(state, placements_[instance], selector);
+    }
+}
+
+void Director::suit_grain(State& state, const Placement& placement, const Selector& selector) const {
     state.grain_doublings = 0;
     uint32_t change = finer(state.transition);
-    if (!is_own || !options_.remedies.suits_grain || change >= grain_m_.size() || grain_m_[change] <= 0) return;
+    bool suits = options_.variant == Variant::fsi && options_.remedies.suits_grain;
+    if (!suits || change >= grain_m_.size() || grain_m_[change] <= 0) return;
     double doublings = std::ceil(std::log2(selector.pixel_m(placement) / (grain_m_[change] * placement.scale)));
     state.grain_doublings = uint8_t(std::clamp(doublings, 0.0, double(kMostGrainDoublings)));
 }
 
 // Returns whether a change of level begins, turns or is done at once.
-bool Director::advance(State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view) {
+bool Director::advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view) {
     Transition before = state.transition;
     if (!state.is_known) {
         uint32_t level = selector.wanted(placement);
@@ -76,11 +135,13 @@ bool Director::advance(State& state, const Placement& placement, const Selector&
     uint32_t wanted = selector.wanted(placement, before.to);
     if (!fades(options_.variant) || !is_in_view) {
         state.transition = {wanted, wanted, 0};
+        divided_.erase(instance);
         return wanted != before.to;
     }
     state.transition = step(before, wanted, dt_s, options_.fade_s, options_.is_one_by_one);
     const Transition& after = state.transition;
-    if (before.is_resting() && !after.is_resting()) begin(state, placement, selector);
+    if (after.is_resting()) divided_.erase(instance);
+    if (before.is_resting() && !after.is_resting()) begun_.push_back(instance);
     bool has_turned = !before.is_resting() && after.to == before.from;
     return (before.is_resting() && after.to != before.to) || has_turned;
 }
@@ -88,6 +149,32 @@ bool Director::advance(State& state, const Placement& placement, const Selector&
 uint32_t Director::drawn_level(const State& state) const {
     bool is_finer = (frame_count_ % 2 == 1) == state.is_odd;
     return is_finer ? finer(state.transition) : coarser(state.transition);
+}
+
+// Each level on its side; which of the two is the even frames', is_odd says.
+void Director::list_divided(uint32_t instance, const State& state, Divided& divided, double grain) {
+    const Transition& transition = state.transition;
+    const Placement& placement = placements_[instance];
+    glm::dvec3 normal = turn_to_eye(divided.split, placement, eye_m_);
+    uint32_t fine = finer(transition), along = drawn_level(state);
+    auto add = [&](uint32_t level, bool is_along) {
+        Item item{instance, level, Show::visible, visible_share(transition, level), fine, grain};
+        item.side = is_along ? Item::Side::along : Item::Side::against, item.normal = normal;
+        item.first_run = uint32_t(frame_.runs.size());
+        uint64_t count = append_side(facts_.levels[level].bunches, placement, eye_m_, normal, is_along, frame_.runs);
+        item.run_count = uint32_t(frame_.runs.size()) - item.first_run;
+        if (item.run_count > 0) frame_.items.push_back(item);
+        return int64_t(count);
+    };
+    uint32_t against = along == fine ? coarser(transition) : fine;
+    int64_t now = add(along, true) + add(against, false);
+    size_t run_count = frame_.runs.size();
+    auto count = [&](uint32_t level, bool is_along) {
+        return int64_t(append_side(facts_.levels[level].bunches, placement, eye_m_, normal, is_along, frame_.runs));
+    };
+    int64_t next = count(against, true) + count(along, false);
+    frame_.runs.resize(run_count);
+    divided.difference = along == fine ? now - next : next - now;
 }
 
 void Director::list(uint32_t instance, const State& state, const Selector& selector) {
@@ -107,6 +194,10 @@ void Director::list(uint32_t instance, const State& state, const Selector& selec
         case Variant::fsi:
         case Variant::fsi_paper: {
             fading.drawn_level = drawn_level(state);
+            if (auto found = divided_.find(instance); found != divided_.end()) {
+                list_divided(instance, state, found->second, grain);
+                break;
+            }
             double share = visible_share(transition, fading.drawn_level);
             frame_.items.push_back({instance, fading.drawn_level, Show::visible, share, change, grain});
             break;
@@ -128,14 +219,18 @@ void Director::list(uint32_t instance, const State& state, const Selector& selec
 
 void Director::sort_items() {
     std::stable_sort(frame_.items.begin(), frame_.items.end(), [](const Item& a, const Item& b) { return a.level < b.level; });
-    for (const Item& item : frame_.items) frame_.triangle_count += facts_.levels[item.level].triangle_count;
+    for (const Item& item : frame_.items) {
+        if (item.side == Item::Side::whole) frame_.triangle_count += facts_.levels[item.level].triangle_count;
+    }
+    for (const TriangleRun& run : frame_.runs) frame_.triangle_count += run.index_count / 3;
     for (const Item& item : frame_.translucent) frame_.triangle_count += facts_.levels[item.level].triangle_count;
 }
 
 int64_t Director::balance() const {
     int64_t balance = 0;
-    for (const State& state : states_) {
-        if (!state.transition.is_resting()) balance += (state.is_odd ? -1 : 1) * difference(state.transition);
+    for (uint32_t i = 0; i < states_.size(); ++i) {
+        const State& state = states_[i];
+        if (!state.transition.is_resting()) balance += (state.is_odd ? -1 : 1) * difference(i, state.transition);
     }
     return balance;
 }
@@ -152,18 +247,25 @@ void Director::decide(const view::Camera& camera, double dt_s, int64_t& balance)
     Selector ahead(facts_, options_.select, later);
     bool foresees = fades(options_.variant) && options_.foresees;
     Selector selector(facts_, options_.select, camera, foresees ? &ahead : nullptr);
+    last_triangle_count_ = frame_.triangle_count;
+    way_m_ = frame_count_ > 0 ? camera.position_m - eye_m_ : glm::dvec3(0);
+    eye_m_ = camera.position_m;
     frame_ = {};
     ++frame_count_;
     balance_ = balance;
+    begun_.clear();
+    std::vector<uint32_t> in_view;
     for (uint32_t instance = 0; instance < states_.size(); ++instance) {
-        State& state = states_[instance];
         bool is_in_view = selector.is_in_view(placements_[instance]);
-        bool has_begun = advance(state, placements_[instance], selector, dt_s, is_in_view);
+        bool has_begun = advance(instance, states_[instance], placements_[instance], selector, dt_s, is_in_view);
         if (!is_in_view) continue;
         frame_.begun_count += has_begun;
-        ++frame_.in_view_count;
-        list(instance, state, selector);
+        in_view.push_back(instance);
     }
+    begin(selector);
+    for (uint32_t instance : in_view) list(instance, states_[instance], selector);
+    frame_.in_view_count = in_view.size();
+    placed_before_.clear();
     balance = balance_;
     frame_.tested_count = states_.size();
     sort_items();

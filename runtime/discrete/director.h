@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct Item {
     double share = 1;     // 0..1
     uint32_t change = 0;  // whose visibility: that of the change between this level and the next coarser
     double grain = 1;     // times as wide as the visibility's own
+    // Drawn on one side of a plane through the eye alone: runs [first_run, + run_count) of FrameList::runs.
+    enum class Side : uint32_t { whole, along, against } side = Side::whole;
+    glm::dvec3 normal{0};  // of the plane, in the world
+    uint32_t first_run = 0, run_count = 0;
 
     bool operator==(const Item&) const = default;
 };
@@ -37,7 +42,7 @@ struct Item {
 struct Fading {
     uint32_t instance = 0;
     Transition transition;
-    uint32_t drawn_level = 0;  // by this frame; of methods that draw by turns
+    uint32_t drawn_level = 0;  // by this frame; of methods that draw by turns; of one that is divided: along its normal
 };
 
 // What one frame draws and what it did.
@@ -45,6 +50,7 @@ struct FrameList {
     std::vector<Item> items;        // by level, then by instance: those of a level stand one after the other
     std::vector<Item> translucent;  // over them, back to front
     std::vector<Fading> fading;     // by instance
+    std::vector<TriangleRun> runs;  // of items that are divided
     uint64_t triangle_count = 0;
     uint64_t tested_count = 0;   // instances looked at
     uint64_t in_view_count = 0;  // of them
@@ -88,12 +94,21 @@ class Director {
         bool is_odd = false;    // draws its finer level in odd frames
         uint8_t grain_doublings = 0;
     };
-    bool advance(State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view);
-    void begin(State& state, const Placement& placement, const Selector& selector);
+    // A thing that is divided, and what its even frames draw more than its odd ones.
+    struct Divided {
+        Split split;
+        int64_t difference = 0;
+    };
+    bool advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view);
+    void begin(const Selector& selector);
+    void take_side(uint32_t instance);
+    bool divide(uint32_t instance);
+    void suit_grain(State& state, const Placement& placement, const Selector& selector) const;
+    void list_divided(uint32_t instance, const State& state, Divided& divided, double grain);
     void list(uint32_t instance, const State& state, const Selector& selector);
     void sort_items();
     uint32_t drawn_level(const State& state) const;
-    int64_t difference(const Transition& transition) const;
+    int64_t difference(uint32_t instance, const Transition& transition) const;
 
     ChainFacts facts_;
     std::vector<Placement> placements_;
@@ -102,7 +117,12 @@ class Director {
     std::vector<double> grain_m_;
     FrameList frame_;
     Foresight foresight_;
+    std::vector<Placement> placed_before_;  // in the frame before, if they stood elsewhere
+    std::map<uint32_t, Divided> divided_;  // by instance
+    std::vector<uint32_t> begun_;           // this frame, in view: instances
     uint64_t frame_count_ = 0;
+    uint64_t last_triangle_count_ = 0;  // of the frame before
+    glm::dvec3 eye_m_{0}, way_m_{0};    // of the camera, and where it came from the frame before
     int64_t balance_ = 0;  // of the picture, while a frame is decided
 };
 

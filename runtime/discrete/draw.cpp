@@ -74,8 +74,9 @@ uint64_t ListBuffers::fill(const DrawList& list) {
     return bytes;
 }
 
-Result<Drawing> Drawing::make(const Chain& chain) {
+Result<Drawing> Drawing::make(const Chain& chain, uint32_t shading_rounds) {
     Drawing made;
+    made.shading_rounds_ = shading_rounds;
     made.chain_ = &chain;
     made.layout_.origin_m = chain.origin_m;
     made.layout_.clip_s = is_animated(chain) ? chain.clip_s : 0;
@@ -175,7 +176,7 @@ std::vector<double> Drawing::grain_m() const {
 Result<gl::Program> Drawing::program(const std::string& name, const std::string& defines, const std::string& main) const {
     std::string vertex = std::string("#version 450 core\n") + shaders::kItems + shaders::kVertex;
     std::string fragment =
-        std::string(gl::shaders::kEncoding) + defines + shaders::kItems + shaders::kFragment + shaders::kVisibility + main;
+        std::string(gl::shaders::kEncoding) + fmt::format("#define SHADING_ROUNDS {}\n", shading_rounds_) + defines + shaders::kItems + shaders::kFragment + shaders::kVisibility + main;
     return gl::Program::make(name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 

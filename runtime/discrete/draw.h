@@ -39,7 +39,8 @@ class Drawing {
   public:
     // The chain must outlive it if anything of it moves. Fails with Exit::impossible if it is too large for the renderer.
     // Pictures that cannot be read (only PNG can) are left out: their surfaces keep their colour; why stands in faults().
-    static Result<Drawing> make(const Chain& chain);
+    // shading_rounds: how many lights more each pixel is shaded by, to see what dear shaders cost.
+    static Result<Drawing> make(const Chain& chain, uint32_t shading_rounds = 0);
 
     const Chain& chain() const { return *chain_; }
     const ChainLayout& layout() const { return layout_; }
@@ -69,6 +70,7 @@ class Drawing {
     Result<void> make_programs();
 
     const Chain* chain_ = nullptr;
+    uint32_t shading_rounds_ = 0;
     ChainLayout layout_;
     gl::Buffer vertices_, indices_, visibilities_, values_;
     gl::VertexArray array_;

@@ -170,8 +170,9 @@ struct Hit {
     uint id, level;
     float z;
 };
-// The older buffer's colour between pixels, of what is the same thing; and the pixel's own order of appearance.
-vec4 older_colour(Hit hit) {
+// The older buffer's colour between pixels, of the same thing in a level; and the pixel's own order of appearance. is_there: some
+// of the pixels round the place show that.
+vec4 older_colour(Hit hit, uint level, out bool is_there) {
     vec2 at = hit.at_px - 0.5, base = floor(at + 1.0 / 256.0), share = max(at - base, 0.0);
     if (share.x < 1.0 / 128.0) share.x = 0.0;
     if (share.y < 1.0 / 128.0) share.y = 0.0;
@@ -183,11 +184,12 @@ vec4 older_colour(Hit hit) {
         float weight = (corner.x == 1 ? share.x : 1.0 - share.x) * (corner.y == 1 ? share.y : 1.0 - share.y);
         if (weight <= 0.0 || !is_inside(from)) continue;
         uvec2 ids = fetch(old_ids, from).xy;
-        if (stored_id(ids.x) != hit.id || ids.y != hit.level) continue;
+        if (stored_id(ids.x) != hit.id || ids.y != level) continue;
         sum += weight * fetch(old_colour, from).rgb;
         weights += weight;
     }
-    return vec4(weights > 0.0 ? sum / weights : own.rgb, 1.0 - own.a);
+    is_there = weights > 0.0;
+    return vec4(is_there ? sum / weights : own.rgb, 1.0 - own.a);
 }
 // Goes after a surface: from a first guess of the depth here to a pixel of the older buffer that is seen at this place now. id: the
 // only thing that counts, or ~0: anything. Iterative image warping (Yang et al. 2011; Bowles et al. 2012).
@@ -260,7 +262,12 @@ void main() {
         if (i == 1) hit = other;
         else if (has_same) hit = same;
         else hit = behind;
-        vec4 of_hit = older_colour(hit);
+        // Of a thing that is divided the pixel may lie beyond the line already.
+        uint level = hit.level;
+        if (i == 0 && has_same && level == newer.level) level = level == own.to ? own.from : own.to;
+        bool is_here;
+        vec4 of_hit = older_colour(hit, level, is_here);
+        if (i == 0) same.level = is_here || level == hit.level ? level : newer.level;
         if (i == 1) nearer = of_hit;
         else found = of_hit;
     }

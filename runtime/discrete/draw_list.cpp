@@ -17,6 +17,12 @@ PackedItem packed(const ChainLayout& layout, const Item& item, const Placement& 
     made.share = float(item.share), made.grain = float(item.grain);
     made.level = item.level, made.show = uint32_t(item.show), made.change = item.change;
     made.is_plain = layout.levels[item.level].is_plain;
+    made.side = uint32_t(item.side);
+    if (item.side != Item::Side::whole) {
+        view::Axes axes = view::axes_of(camera);
+        glm::dvec3 in_eye(glm::dot(item.normal, axes.right), glm::dot(item.normal, axes.up), glm::dot(item.normal, axes.forward));
+        made.line = glm::vec3(line_of(in_eye, view::focal_px(camera), camera.width_px, camera.height_px));
+    }
     if (item.show == Show::visible) {
         double period_m = double(layout.visibilities[item.change].period_m) * item.grain;
         const glm::dvec3& origin = layout.origin_m;
@@ -35,6 +41,16 @@ void add_run(const ChainLayout& layout, uint32_t level, uint32_t begin, uint32_t
     const ChainLayout::LevelRuns& from = layout.levels[level];
     for (const ChainLayout::Run& run : from.runs)
         commands.push_back({run.surface, {run.index_count, end - begin, run.first_index, from.base_vertex, begin}});
+}
+
+// Of one item that is divided.
+void add_runs(const ChainLayout& layout, const Item& item, uint32_t place, std::span<const TriangleRun> runs,
+              std::vector<SurfaceCommand>& commands) {
+    const ChainLayout::LevelRuns& from = layout.levels[item.level];
+    for (const TriangleRun& run : runs.subspan(item.first_run, item.run_count)) {
+        const ChainLayout::Run& draw = from.runs[run.draw];
+        commands.push_back({draw.surface, {run.index_count, 1, draw.first_index + run.first_index, from.base_vertex, place}});
+    }
 }
 
 // Neighbours of one surface become one call.
@@ -67,9 +83,14 @@ DrawList draw_list(const ChainLayout& layout, const Chain& chain, const FrameLis
     std::vector<SurfaceCommand> whole;
     uint32_t whole_count = uint32_t(frame.items.size());
     for (uint32_t begin = 0, end = 0; begin < whole_count; begin = end) {
-        uint32_t level = list.items[begin].level;
-        while (end < whole_count && list.items[end].level == level) ++end;
-        add_run(layout, level, begin, end, whole);
+        const Item& first = frame.items[begin];
+        if (first.side != Item::Side::whole) {
+            add_runs(layout, first, begin, frame.runs, whole);
+            end = begin + 1;
+            continue;
+        }
+        while (end < whole_count && frame.items[end].level == first.level && frame.items[end].side == Item::Side::whole) ++end;
+        add_run(layout, first.level, begin, end, whole);
     }
     std::stable_sort(whole.begin(), whole.end(), [](const auto& a, const auto& b) { return a.surface < b.surface; });
     list.whole_calls = calls_of(whole, list.commands);

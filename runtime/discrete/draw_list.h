@@ -19,8 +19,10 @@ struct PackedItem {
     uint32_t id = 0, level = 0, show = 0, change = 0;  // id: instance + 1
     glm::vec2 shift{0};
     uint32_t first_pose = 0, is_plain = 0;
+    glm::vec3 line{0};  // split.h's line_of
+    uint32_t side = 0;  // Item::Side
 };
-static_assert(sizeof(PackedItem) == 64);
+static_assert(sizeof(PackedItem) == 80);
 
 // As OpenGL has it (glMultiDrawElementsIndirect).
 struct Command {

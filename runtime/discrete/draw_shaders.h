@@ -12,6 +12,8 @@ struct Item {
     uint id, level, show, change;
     vec2 shift;        // of the visibility's lookup
     uint first_pose, is_plain;
+    vec3 line;         // in gl_FragCoord: above 0 on the side that is drawn if side is 1, else if it is 2; 0: all is drawn
+    uint side;
 };
 layout(std430, binding = 0) readonly buffer Items { Item items[]; };
 )";
@@ -93,6 +95,19 @@ uniform float alpha_cutoff;
 uniform bool has_normals;
 layout(location = 0) out vec4 colour;
 
+// SHADING_ROUNDS: so many lights more, all round, each with a highlight: a shader that is dear.
+#if SHADING_ROUNDS > 0
+float further_light(vec3 normal, vec3 to_eye) {
+    float sum = 0.0;
+    for (int i = 0; i < SHADING_ROUNDS; ++i) {
+        float turn = 2.399963 * float(i), height = (float(i) + 0.5) / float(SHADING_ROUNDS);
+        vec3 light = vec3(sqrt(1.0 - height * height) * vec2(cos(turn), sin(turn)), height);
+        sum += max(0.0, dot(normal, light)) + pow(max(0.0, dot(reflect(-light, normal), to_eye)), 8.0 + float(i));
+    }
+    return sum / float(SHADING_ROUNDS);
+}
+#endif
+
 // Light from the upper left, and a little from the eye.
 vec3 own_colour(bool is_plain) {
     vec4 own = base_colour * surface.tint;
@@ -104,6 +119,9 @@ vec3 own_colour(bool is_plain) {
     vec3 normal = has_normals && !is_plain ? normalize(surface.normal) : flat_normal;
     if (dot(normal, flat_normal) < 0.0) normal = -normal;
     float light = 0.25 + 0.6 * max(0.0, dot(normal, normalize(vec3(-0.5, -0.3, 0.8))));
+#if SHADING_ROUNDS > 0
+    light = 0.5 * light + 0.5 * further_light(normal, -normalize(surface.relative_m));
+#endif
     return own.rgb * (light + 0.15 * max(0.0, dot(normal, -normalize(surface.relative_m))));
 }
 )";
@@ -154,6 +172,8 @@ inline constexpr char kTurnMain[] = R"(
 layout(location = 1) out uvec2 ids;  // instance + 1, level
 void main() {
     Item item = items[item_of];
+    bool is_along = dot(item.line, vec3(gl_FragCoord.xy, 1.0)) >= 0.0;
+    if (item.side != 0u && is_along != (item.side == 1u)) discard;
     vec3 own = own_colour(item.is_plain != 0u);
     float appears = item.show == 1u ? visibility_of(item, surface.rest_m) : 0.0;
 #if !KEEPS_HIDDEN

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace overlook::discrete {
@@ -26,7 +27,7 @@ ChainFacts facts_of(const Chain& chain) {
     double outline = 4 * std::numbers::pi * chain.radius_m;
     for (const Level& level : chain.levels) {
         double lost_m = chain.radius_m > 0 ? level.lost_area_share * area / outline : 0;
-        facts.levels.push_back({level.error_m, lost_m, level.triangle_count()});
+        facts.levels.push_back({level.error_m, lost_m, level.triangle_count(), bunches_of(chain, level)});
     }
     return facts;
 }
@@ -48,6 +49,13 @@ std::vector<Placement> placements_of(std::span<const scene::Instance> instances,
                               outer.sine * inner.cosine + outer.cosine * inner.sine, outer.scale * inner.scale});
     }
     return placements;
+}
+
+double near_plane_m(double radius_m, std::span<const Placement> placements) {
+    constexpr double kShare = 1e-5, kMost_m = 0.5, kLeastRadius_m = 1e-6;
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const Placement& one : placements) least_m = std::min(least_m, std::max(radius_m * one.scale, kLeastRadius_m));
+    return std::min(kMost_m, kShare * least_m);
 }
 
 Selector::Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera, const Selector* ahead)

@@ -12,6 +12,7 @@
 #include "formats/discrete.h"
 #include "formats/scene.h"
 #include "runtime/discrete/settings.h"
+#include "runtime/discrete/split.h"
 #include "runtime/view/camera.h"
 #include "runtime/view/pixel_error.h"
 
@@ -24,6 +25,7 @@ struct LevelFacts {
     // s A / (4 pi r).
     double area_error_m = 0;
     uint64_t triangle_count = 0;
+    std::vector<Bunch> bunches;  // of all triangles
 };
 
 // What has to be known of a chain to choose by, in its own world.
@@ -51,6 +53,11 @@ Placement placement_of(const scene::Transform& transform);
 // Of each instance at that time of the flight, and all of them moved by `whole`; of no instances `whole` itself.
 std::vector<Placement> placements_of(std::span<const scene::Instance> instances, const scene::Transform& whole,
                                      double time_s = 0);
+
+// Where the near plane lies, metres before the eye, so near that nothing is cut off that can be seen of chains of such a radius
+// (metres, of the chain) that stand there: 1e-5 of the least one's, half a metre at most. Depths are reversed floats, so this costs
+// no precision. placements: at least one.
+double near_plane_m(double radius_m, std::span<const Placement> placements);
 
 // Strains of levels, and who is in the frame, of one camera.
 class Selector {

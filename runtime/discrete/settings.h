@@ -53,6 +53,7 @@ struct Remedies {
     bool has_wide_depth = true;   // 32-bit floats, near 1; else 16-bit floats, near 0
     bool weighs_by_phase = true;  // the two colours; else half of each
     bool splits_parities = true;  // half of the instances, by triangles, draw their finer level in even frames
+    bool splits_things = true;    // with splits_parities: one thing whose change is much of the work is divided (split.h)
     bool moves_instances = true;  // looks instances up where they were themselves; else by the camera alone
     bool searches = true;         // what covers a pixel in the older buffer is found wherever it was there
     // Each level's ramp lasts as long as the change: where both are seen they are mixed, so none need be whole. With keeps_hidden

@@ -14,7 +14,6 @@ namespace overlook::player {
 namespace {
 
 constexpr double kOverviewFov_deg = 42, kOverviewHeading_deg = -30, kOverviewPitch_deg = -20, kOverviewMargin = 1.1;
-constexpr double kNearShare = 1e-5;        // of one thing's size; depths are reversed floats, so this costs no precision
 constexpr double kLeastSpeedShare = 0.05;  // of one thing's size in a second
 
 // A chain and where it stands.
@@ -58,7 +57,11 @@ class ChainSubject : public Subject {
         camera.position_m = (lowest_m_ + highest_m_) / 2.0 - view::axes_of(camera).forward * away_m;
         return camera;
     }
-    double near_m() const override { return std::min(0.5, kNearShare * least_radius_m_); }
+    double near_m() const override {
+        double near_m = std::numeric_limits<double>::infinity();
+        for (const Stood& each : chains_) near_m = std::min(near_m, discrete::near_plane_m(each.chain->radius_m, each.placements));
+        return near_m;
+    }
     Thing thing() const override { return Thing::chain; }
 
     std::optional<double> height_m(double, double) const override { return std::nullopt; }

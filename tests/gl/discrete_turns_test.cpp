@@ -129,9 +129,10 @@ TEST(Turns, FollowWhatMoves) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Chain chain = made::simple_chain();
     view::Camera camera = camera_from({0, -10.5, 0});
-    auto error = [&](bool moves_instances) {
+    auto error = [&](bool moves_instances, bool splits_things) {
         FrameOptions options = by_distance(Variant::fsi);
         options.remedies.moves_instances = moves_instances;
+        options.remedies.splits_things = splits_things;
         FrameOptions fine = by_distance(Variant::hard), coarse = fine;
         fine.select.distance_m = 100, coarse.select.distance_m = 1;
         Film film(chain, {Placement{}}, options), level_0(chain, {Placement{}}, fine), level_1(chain, {Placement{}}, coarse);
@@ -145,9 +146,11 @@ TEST(Turns, FollowWhatMoves) {
         }
         return count;
     };
-    size_t with = error(true), without = error(false);
-    EXPECT_LT(with, 150u);
-    EXPECT_LT(3 * with, without);
+    for (bool splits_things : {false, true}) {
+        size_t with = error(true, splits_things), without = error(false, splits_things);
+        EXPECT_LT(with, splits_things ? 170u : 150u);
+        EXPECT_LT(3 * with, without);
+    }
 }
 
 // More than 2,048 instances, far away: ids and depths of 16 bits take one thing for another.
@@ -185,6 +188,59 @@ TEST(Turns, RemediesEachChangeThePicture) {
         FrameOptions without = all;
         set(without, name, 0);
         EXPECT_GT(made::differing(picture_of(without), whole, 4), 10u) << name;
+    }
+}
+
+// A thing that is divided between even and odd frames looks like one that is not: the same to the last bit while the eye rests,
+// and no more than a few pixels apart, by little, while it goes past.
+TEST(Turns, DivideABigThingUnseen) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    for (const Chain& chain : {made::simple_chain(), made::coplanar_chain(), made::sphere_chain(24, 2)}) {
+        for (uint32_t samples : {1u, 4u}) {
+            FrameOptions options = by_distance(Variant::fsi), undivided = options;
+            options.select.distance_m = undivided.select.distance_m = 15;
+            set(undivided, "split-things", 0);
+            Film film(chain, {placed({0, 0, 0})}, options, samples), whole(chain, {placed({0, 0, 0})}, undivided, samples);
+            for (Film* one : {&film, &whole}) one->frame(camera_from({0, -17, 0}));
+            view::Camera still = camera_from({0.3, -4.5, 0.2});
+            for (double phase : {0.2, 0.5, 0.8}) {
+                while (film.transition().phase < phase) film.frame(still);
+                while (whole.transition().phase + 1e-6 < film.transition().phase) whole.frame(still);
+                ASSERT_NEAR(film.transition().phase, whole.transition().phase, 1e-6);
+                for (Film* one : {&film, &whole}) one->frame(still, 0);
+                for (int again = 0; again < 2; ++again)
+                    EXPECT_EQ(made::differing(film.frame(still, 0), whole.frame(still, 0)), 0u) << phase << " " << samples;
+            }
+        }
+    }
+}
+
+// On the way every pixel is what an undivided thing shows whose finer level is drawn in even frames, or in odd ones.
+TEST(Turns, DivideABigThingUnseenOnTheWay) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Chain chain = made::simple_chain();
+    for (glm::dvec3 way_m : {glm::dvec3(0.08, 0.01, 0), glm::dvec3(0.01, 0.12, 0), glm::dvec3(0.03, 0.02, 0.09)}) {
+        FrameOptions options = by_distance(Variant::fsi), undivided = options;
+        set(undivided, "split-things", 0);
+        Film film(chain, {placed({0, 0, 0})}, options), odd(chain, {placed({0, 0, 0})}, undivided),
+            even(chain, {placed({0, 0, 0})}, undivided);
+        even.frame(camera_from({0, -12, 0}));
+        size_t compared = 0, beyond = 0, apart = 0;
+        for (int frame = 0; frame < 16; ++frame) {
+            view::Camera camera = camera_from(glm::dvec3(0, frame == 0 ? -12 : -6, 0) + double(frame) * way_m);
+            double dt_s = frame == 1 ? 0 : kStep_s;  // all begin in one phase
+            ImageRgb8 a = film.frame(camera, dt_s), b = odd.frame(camera, dt_s), c = even.frame(camera, dt_s);
+            if (frame < 2) continue;
+            ASSERT_EQ(film.transition(), odd.transition());
+            ASSERT_EQ(film.transition(), even.transition());
+            EXPECT_NE(film.counts.triangle_count, odd.counts.triangle_count) << "is divided";
+            ++compared;
+            beyond += made::beyond(a, b, c, 6);
+            apart += std::min(made::differing(a, b, 6), made::differing(a, c, 6));
+        }
+        EXPECT_GT(compared, 10u);
+        EXPECT_GT(double(apart) / double(compared), 5) << "each is what is seen somewhere";
+        EXPECT_LT(double(beyond) / double(compared), 4) << way_m.x << ": of some 1,000";
     }
 }
 

@@ -115,6 +115,9 @@ TEST(Seen, IsOfTheFirstFrameOfAChangeAndOfTheFirstAfterIt) {
     EXPECT_NEAR(at_once.integrated_w, 20, 1e-9) << "one frame is all there is";
     EXPECT_NEAR(at_once.pop, 11, 1e-3);
     EXPECT_DOUBLE_EQ(fading.odd_even, 0);
+    EXPECT_NEAR(fading.end_ratio, 5.0 / 2, 1e-9) << "3, seven times 2 and 5 thousandths";
+    EXPECT_NEAR(fading.greatest_ratio, 5.0 / 2, 1e-9);
+    EXPECT_NEAR(at_once.end_ratio, 21, 1e-9) << "in the time that others take it rests";
 }
 
 Flown made_flown() {
@@ -146,6 +149,7 @@ const Target& named(const std::vector<Target>& targets, const std::string& begin
 TEST(FsiTargets, AreOfTheFilmsAndOfFigure8) {
     std::vector<Target> targets = targets_of(made_flown());
     EXPECT_NEAR(*named(targets, "pop index").measured[1], 3, 1e-3);
+    EXPECT_NEAR(*named(targets, "W on entering").measured[1], 2.5, 1e-6);
     EXPECT_NEAR(*named(targets, "triangles a frame").measured[1], 1.01, 1e-9);
     EXPECT_NEAR(*named(targets, "the combination pass").measured[1], 3, 1e-9);
     EXPECT_NEAR(*named(targets, "the combination pass").measured[0], 1, 1e-9);

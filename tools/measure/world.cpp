@@ -53,13 +53,10 @@ Result<double> read_mesh(const container::Reader& file, World& world) {
 }
 
 Result<double> read_chain(const container::Reader& file, const scene::Layer& layer, World& world) {
-    constexpr double kNearShare = 1e-5;  // of the least thing's size, likewise
     Result<discrete::Chain> chain = discrete::read(file);
     if (!chain) return tl::unexpected(chain.error());
     const ChainWorld& made = world.chains.emplace_back(chain_world(std::move(*chain), layer.instances, layer.transform));
-    double least_m = std::numeric_limits<double>::infinity();
-    for (const discrete::Placement& one : made.placements) least_m = std::min(least_m, one.scale * made.chain->radius_m);
-    return std::min(0.5, kNearShare * std::max(least_m, 1e-6));
+    return discrete::near_plane_m(made.chain->radius_m, made.placements);
 }
 
 // By the kind of the file. hash grows by what it holds.
@@ -141,9 +138,9 @@ ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Instance> i
     return made;
 }
 
-Result<void> upload(World& world) {
+Result<void> upload(World& world, uint32_t shading_rounds) {
     for (ChainWorld& one : world.chains) {
-        Result<discrete::Drawing> drawing = discrete::Drawing::make(*one.chain);
+        Result<discrete::Drawing> drawing = discrete::Drawing::make(*one.chain, shading_rounds);
         if (!drawing) return tl::unexpected(drawing.error());
         world.resident_bytes += drawing->bytes();
         one.drawing.emplace(std::move(*drawing));

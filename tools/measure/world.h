@@ -84,6 +84,7 @@ ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Instance> i
 Result<World> read_world(const std::string& path);
 
 // Puts it on the graphics card, once; needs a current context. Fails with Exit::impossible.
-Result<void> upload(World& world);
+// shading_rounds: of chains, as discrete::Drawing::make.
+Result<void> upload(World& world, uint32_t shading_rounds = 0);
 
 }  // namespace overlook::measure

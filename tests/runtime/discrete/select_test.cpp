@@ -48,6 +48,16 @@ TEST(ChainFacts, HoldLostAreaAsADisplacement) {
 }
 
 // The promise: whatever lies as far from level 0 as the level says, anywhere in the frame, is displaced by no more pixels.
+TEST(NearPlane, IsByTheLeastThing) {
+    std::vector<Placement> placements(3);
+    placements[1].scale = 0.25;
+    EXPECT_DOUBLE_EQ(near_plane_m(8, placements), 2e-5);
+    placements[1].scale = 0;
+    EXPECT_DOUBLE_EQ(near_plane_m(8, placements), 1e-11);
+    placements[1].scale = 1;
+    EXPECT_DOUBLE_EQ(near_plane_m(1e9, placements), 0.5);
+}
+
 TEST(Selector, KeepsThePromiseAnywhereInTheFrame) {
     ChainFacts facts = facts_of(made::sphere_chain());
     SelectSettings settings;

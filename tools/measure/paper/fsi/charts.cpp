@@ -18,7 +18,7 @@ Chart ramps() {
 }
 
 std::string line_of(const std::string& scene, const std::string& chain, std::string_view method, size_t place, bool is_dashed) {
-    std::string title = std::string(method) + (chain.empty() ? "" : ", levels " + chain);
+    std::string title = std::string(method) + (chain.empty() || chain == kHeavy ? "" : ", levels " + chain);
     return fmt::format(
         "'../sizes.csv' skip 1 using (strcol(1) eq {} && strcol(2) eq {} && strcol(3) eq {} ? $4 : NaN):6 with linespoints lc "
         "rgb "
@@ -27,15 +27,18 @@ std::string line_of(const std::string& scene, const std::string& chain, std::str
         gnuplot_text(title));
 }
 
-Chart times(const Flown& flown, const std::string& scene) {
-    Chart chart{"figure-8-" + scene, "Figure 8, " + title_of(scene) + ": frame time against the viewport's side", chart_head(8)};
+// chains: by their names; the first one's lines are whole, others dashed.
+Chart times(const Flown& flown, const std::string& scene, const std::string& end, const std::vector<std::string>& chains) {
+    Chart chart{"figure-8-" + scene + (end.empty() ? "" : "-" + end),
+                "Figure 8, " + title_of(scene) + (end.empty() ? "" : ", " + chains[0]) + ": frame time against the viewport's side",
+                chart_head(8)};
     chart.script += x_label("pixels a side") +
                     "set datafile missing NaN\nset xrange [0:*]\nset yrange [0:*]\nset ylabel 'ms a frame, median'\nplot ";
     std::string lines;
-    for (const std::string& chain : {std::string(), std::string("by hand")})
+    for (const std::string& chain : chains)
         for (size_t i = 0; i < kWays.size(); ++i) {
             if (find(flown.points, scene, chain, kWays[i].name, kSides_px[0]) == nullptr) continue;
-            lines += (lines.empty() ? "" : ", \\\n") + line_of(scene, chain, kWays[i].name, i, !chain.empty());
+            lines += (lines.empty() ? "" : ", \\\n") + line_of(scene, chain, kWays[i].name, i, chain != chains[0]);
         }
     chart.script += lines + "\n";
     return chart;
@@ -45,7 +48,11 @@ Chart times(const Flown& flown, const std::string& scene) {
 
 std::vector<Chart> charts_of(const Flown& flown) {
     std::vector<Chart> charts = {ramps()};
-    for (const std::string& scene : flown.scenes) charts.push_back(times(flown, scene));
+    for (const std::string& scene : flown.scenes) {
+        charts.push_back(times(flown, scene, "", {"", "by hand"}));
+        if (find(flown.points, scene, kHeavy, kWays[kSwitch].name, kSides_px[0]))
+            charts.push_back(times(flown, scene, "heavy", {kHeavy}));
+    }
     return charts;
 }
 

@@ -7,6 +7,7 @@
 
 #include "tools/measure/figures.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/numbers/percentiles.h"
 #include "tools/measure/paper/fsi/easel.h"
 #include "tools/measure/paper/fsi/subject.h"
 
@@ -186,6 +187,11 @@ Seen seen_of(const Film& film, const Take& take) {
         before = triangles;
     }
     seen.triangles = sum / kFading;
+    std::vector<double> under_way;
+    for (uint32_t frame = kBefore; frame <= kBefore + kFading; ++frame) under_way.push_back(*run.frames[frame].numbers.w);
+    double median = std::max(1e-9, percentile(std::span<const double>(under_way), 0.5));
+    seen.end_ratio = std::max(*run.frames[kBefore].numbers.w, *run.frames[end].numbers.w) / median;
+    seen.greatest_ratio = *std::max_element(under_way.begin(), under_way.end()) / median;
     seen.median_w = 1000 * percentiles_of(run, "w_luma").p50;
     seen.entering_pop = pop_within(take, film.floor, kBefore, kBefore + 2);
     seen.leaving_pop = pop_within(take, film.floor, std::max(end, kBefore + 1) - 1, end + 1);
@@ -198,14 +204,14 @@ Seen seen_of(const Film& film, const Take& take) {
 std::string films_csv(const std::vector<Film>& films) {
     std::string csv =
         "scene,chain,method,from_level,to_level,distance_m,instances,entering_w_1000,leaving_w_1000,greatest_w_1000,"
-        "integrated_w_1000,median_w_1000,entering_pop,leaving_pop,pop,triangles,odd_even_share,buffer_bytes\n";
+        "integrated_w_1000,median_w_1000,entering_pop,leaving_pop,pop,end_ratio,greatest_ratio,triangles,odd_even_share,buffer_bytes\n";
     for (const Film& film : films)
         for (const Take& take : film.takes) {
             Seen s = seen_of(film, take);
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", film.name, film.chain, take.name,
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", film.name, film.chain, take.name,
                                film.stand.change + 1, film.stand.change, film.stand.distance_m, film.stand.count, s.entering_w,
                                s.leaving_w, s.greatest_w, s.integrated_w, s.median_w, s.entering_pop, s.leaving_pop, s.pop,
-                               s.triangles, s.odd_even, s.buffer_bytes);
+                               s.end_ratio, s.greatest_ratio, s.triangles, s.odd_even, s.buffer_bytes);
         }
     return csv;
 }

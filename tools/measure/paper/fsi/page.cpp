@@ -37,7 +37,7 @@ std::string figure_8_html(const FsiPage& page) {
     std::string html = "<h2>Figure 8: frame time against viewport size</h2>\n";
     for (const Chart& chart : page.charts) {
         if (!page.has_charts || chart.name.rfind("figure-8", 0) != 0) continue;
-        html += chart_html(chart.name, chart.title, "The same levels at every size. Dashes: levels made by hand.");
+        html += chart_html(chart.name, chart.title, "The same levels at every size. Dashes: levels made by hand. Heavy shader: many lights more for each pixel.");
     }
     html += std::string(kTable) +
             table_row({"", "method", "pixels a side", "ms p50", "ms max", "triangles", "times switch", "draw calls", "changing",
@@ -60,7 +60,7 @@ std::string film_html(const Film& film) {
     std::string html =
         fmt::format("<h3>{}</h3>\n", escaped(title_of(film.name) + (film.chain.empty() ? "" : ", levels " + film.chain))) +
         kTable +
-        table_row({"", "W entering", "W leaving", "W greatest", "W of the change", "median W", "pop entering", "pop leaving",
+        table_row({"", "W entering", "W leaving", "W greatest", "W of the change", "median W", "ends, times median", "greatest, times median", "pop entering", "pop leaving",
                    "pop index", "triangles", "frame to frame, %", "buffers"},
                   "th") +
         "</thead>\n<tbody>\n";
@@ -68,6 +68,7 @@ std::string film_html(const Film& film) {
         Seen seen = seen_of(film, take);
         html += table_row({escaped(take.name), short_number(seen.entering_w), short_number(seen.leaving_w),
                            short_number(seen.greatest_w), short_number(seen.integrated_w), short_number(seen.median_w),
+                           short_number(seen.end_ratio), short_number(seen.greatest_ratio),
                            short_number(seen.entering_pop), short_number(seen.leaving_pop), short_number(seen.pop),
                            short_count(seen.triangles), short_number(100 * seen.odd_even), short_bytes(seen.buffer_bytes)},
                           "td");
@@ -84,7 +85,8 @@ std::string films_html(const Flown& flown) {
         "x 4 "
         "supersampled, does not have, over what full geometry at the method's samples has, in thousandths; of the change: summed "
         "over "
-        "its frames. Pop index: of the two frames in which the change begins and ends, and of the whole film.</p>\n";
+        "its frames. Times median: W as it is in the frame in which the change begins or the first after it, and in any frame of it, over its "
+        "median from the one to the other. Pop index: of the worst tile of the two frames in which the change begins and ends, and of the whole film, by the floor.</p>\n";
     for (const Film& film : flown.films) html += film_html(film);
     return html + "<p class=\"note\"><a href=\"films.csv\">films.csv</a></p>\n";
 }

@@ -42,6 +42,18 @@ Point point_of(const RunResult& run) {
     return point;
 }
 
+// The scene's chains, shaded by more lights.
+Result<World> heavy_world(const World& scene) {
+    World world;
+    world.name = scene.name, world.base = scene.base, world.step_s = scene.step_s;
+    for (const ChainWorld& one : scene.chains) {
+        ChainWorld& copy = world.chains.emplace_back(chain_world(*one.chain, {}));
+        copy.placements = one.placements;
+    }
+    if (Result<void> uploaded = upload(world, kHeavyRounds); !uploaded) return tl::unexpected(uploaded.error());
+    return world;
+}
+
 }  // namespace
 
 Asked asked_of(const std::string& name) {
@@ -62,7 +74,10 @@ Result<std::vector<Point>> fly_sizes(Subject& subject, const gl::Renderer& rende
         World* world;
         std::vector<Way> ways;
     };
-    std::vector<Part> parts = {{"", &subject.world, {kWays.begin(), kWays.end()}}};
+    Result<World> heavy = heavy_world(subject.world);
+    if (!heavy) return tl::unexpected(heavy.error());
+    std::vector<Part> parts = {{"", &subject.world, {kWays.begin(), kWays.end()}},
+                               {kHeavy, &*heavy, {kWays[kSwitch], kWays[kBlend], kWays[kPaper], kWays[kOwn]}}};
     if (subject.by_hand) parts.push_back({"by hand", &*subject.by_hand, {kWays[kSwitch], kWays[kPaper]}});
     Asked asked = asked_of(subject.name);
     uint32_t count = std::max(2u, frames / asked.frames_share);

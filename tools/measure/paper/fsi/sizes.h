@@ -34,7 +34,13 @@ struct Point {
     uint64_t resident_bytes = 0, state_bytes = 0;
 };
 
-// Every way over the scene's own chain and, of `switch` and `fsi:paper`, over the levels made by hand; frames take turns. frames:
+// How points of the scene's own chain are named whose pixels are shaded by kHeavyRounds lights more (figure 8 is of a shader that
+// is simple: "the penalty looks exaggerated in comparison to the more common case of realistic fragment shaders").
+constexpr const char* kHeavy = "heavy shader";
+constexpr uint32_t kHeavyRounds = 48;
+
+// Every way over the scene's own chain, with its shader and with a heavy one, and, of `switch` and `fsi:paper`, over the levels
+// made by hand; frames take turns. frames:
 // at least 2. Fails as run_course.
 Result<std::vector<Point>> fly_sizes(Subject& subject, const gl::Renderer& renderer, uint32_t frames,
                                      const std::function<void(double)>& done);

@@ -9,7 +9,7 @@
 namespace overlook::measure::paper::fsi {
 namespace {
 
-constexpr std::array<Variation, 16> kVariations = {{
+constexpr std::array<Variation, 17> kVariations = {{
     {"switch", kSwitch, "", "At once.", false},
     {"fsi:paper", kPaper, "", "As printed.", false},
     {"fsi:paper@reproject=0", kPaper, "@reproject=0", "The older buffer is looked up at the same pixel.", false},
@@ -21,6 +21,7 @@ constexpr std::array<Variation, 16> kVariations = {{
     {"fsi@wide-ids=0", kOwn, "@wide-ids=0", "Ids are 16-bit floats.", true},
     {"fsi@weigh-by-phase=0", kOwn, "@weigh-by-phase=0", "Where both levels are seen, half of each colour.", true},
     {"fsi@split-parities=0", kOwn, "@split-parities=0", "All draw their finer level in the same frames.", true},
+    {"fsi@split-things=0", kOwn, "@split-things=0", "One thing's finer level is drawn in one frame, its coarser in the next.", true},
     {"fsi@search=0", kOwn, "@search=0", "One lookup in the older buffer, by the newer one's depth.", true},
     {"fsi@suit-grain=0", kOwn, "@suit-grain=0", "The visibility's grain is as it was baked, however far the thing.", true},
     {"fsi@softness=0", kOwn, "@softness=0", "A place appears at once, not over half of the ramp.", true},
