@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "formats/srgb.h"
 #include "tools/bake/images.h"
 
 namespace overlook::wang_ldi {
@@ -81,7 +82,7 @@ void Maker::add_looks() {
     skin_.looks.clear();
     for (const mesh::Surface& surface : mesh_.surfaces) {
         Look look;
-        look.albedo = glm::vec3(surface.base_colour);
+        for (int c = 0; c < 3; ++c) look.albedo[c] = float(overlook::linear_from_srgb(double(surface.base_colour[c])));
         if (auto texture = textures_.find(surface.texture); texture != textures_.end() && !mesh_.uvs.empty())
             look.texture = texture->second;
         look.transmission = surface.is_two_sided ? options_.leaf_transmission : 0;

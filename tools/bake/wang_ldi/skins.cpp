@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/srgb.h"
+
 namespace overlook::wang_ldi {
 namespace {
 
 std::array<float, 256> linear_table() {
     std::array<float, 256> table{};
-    for (int code = 0; code < 256; ++code) {
-        double value = code / 255.0;
-        table[size_t(code)] = float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
-    }
+    for (int code = 0; code < 256; ++code) table[size_t(code)] = float(overlook::linear_from_srgb(code / 255.0));
     return table;
 }
 
@@ -52,9 +51,7 @@ float linear_from_srgb(uint8_t code) {
 }
 
 uint8_t srgb_from_linear(float value) {
-    double clamped = std::clamp(double(value), 0.0, 1.0);
-    double code = clamped <= 0.0031308 ? clamped * 12.92 : 1.055 * std::pow(clamped, 1 / 2.4) - 0.055;
-    return uint8_t(code * 255 + 0.5);
+    return uint8_t(overlook::srgb_from_linear(std::clamp(double(value), 0.0, 1.0)) * 255 + 0.5);
 }
 
 Point point_of(const Models& models, std::span<const rays::Copy> copies, const rays::Hit& hit, const glm::vec3& seen_along) {
