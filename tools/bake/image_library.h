@@ -25,6 +25,7 @@ struct ImageLibrary {
     const char* version;  // Overlook's own; compared before anything else is touched
     Result<NumberRaster> (*read_numbers)(const PictureFile& file, const ImageWindow& window);
     Result<ImageRgb8> (*read_rgb8)(const PictureFile& file);
+    Result<PictureRgba8> (*read_rgba8)(const PictureFile& file, std::span<const std::byte> bytes);
     std::optional<PictureSize> (*size_of)(const PictureFile& file, std::span<const std::byte> bytes);
     Result<std::vector<std::byte>> (*write_png)(uint32_t width, uint32_t height, int channels, std::span<const uint8_t> pixels);
 };

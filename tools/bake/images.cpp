@@ -64,6 +64,16 @@ Result<ImageRgb8> read_image_rgb8(const std::string& path) {
     return read_with_library(path, [](const ImageLibrary& library, const PictureFile& file) { return library.read_rgb8(file); });
 }
 
+Result<PictureRgba8> picture_rgba8(const std::string& name, std::span<const std::byte> bytes) {
+    const PictureFile file{name, reader_of(name, bytes), 1};
+    if (bytes.empty() || file.reader.empty()) return bad_input("{}: is no picture of a known form", name);
+    if (file.reader == "png")
+        if (auto whole = check_png(bytes, name); !whole) return tl::unexpected(whole.error());
+    const Result<const ImageLibrary*> library = image_library();
+    if (!library) return tl::unexpected(library.error());
+    return (*library)->read_rgba8(file, bytes);
+}
+
 Result<std::optional<PictureSize>> picture_size(const std::string& name, std::span<const std::byte> bytes) {
     const PictureFile file{name, reader_of(name, bytes), 1};
     if (bytes.empty() || file.reader.empty() || (file.reader == "png" && !check_png(bytes, name))) return std::nullopt;

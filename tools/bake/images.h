@@ -32,6 +32,15 @@ Result<NumberRaster> read_number_raster(const std::string& path, const ImageWind
 // rounded to 8.
 Result<ImageRgb8> read_image_rgb8(const std::string& path);
 
+// A picture file's bytes as 8-bit RGBA, as stored: colours are not multiplied by opacity, which is 255 where there is none.
+struct PictureRgba8 {
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> pixels;  // [height, width, 4], top row first
+};
+// `bytes` may be hostile. Fails with Exit::bad_input, as read_image_rgb8 does, and for more than 2^26 pixels: "leaf.png: has
+// 90000 x 90000 pixels, at most 67108864 in all are read".
+Result<PictureRgba8> picture_rgba8(const std::string& name, std::span<const std::byte> bytes);
+
 // Width and height in pixels of a picture file's bytes (PNG, JPEG and what else OpenImageIO reads; `name` tells by its extension
 // where the bytes do not). Reads the header alone. Nothing where it is no picture; bytes that cannot be one open no module.
 struct PictureSize {
