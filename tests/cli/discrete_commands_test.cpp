@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -139,6 +140,8 @@ TEST(DiscreteCommands, RefuseWhatMakesNoSense) {
     const char* name = "bake-lod discrete";
     expect_refusal(run({"bake-lod", "discrete", ball, "-o", ball}), 2, name, {"would be overwritten"});
     expect_refusal(run({"bake-lod", "discrete", ball, cube, "-o", out, "--levels-from", "cut"}), 2, name, {"cut from one mesh"});
+    for (std::array<const char*, 2> option : {std::array{"--impostors", "cloud"}, std::array{"--plain-px", "9"}})
+        expect_refusal(run({"bake-lod", "discrete", ball, cube, "-o", out, option[0], option[1]}), 2, name, {"made by hand"});
     expect_refusal(run({"bake-lod", "discrete", folder / "none.glb", "-o", out}), 3, name, {"none.glb"});
     expect_refusal(run({"bake-lod", "discrete", ball, "-o", out, "--visibility", folder / "none.png"}), 3, name, {"none.png"});
     expect_refusal(run({"bake-lod", "discrete", ball, "-o", folder / "no/such/folder.ovl"}), 4, name, {"no/such"});

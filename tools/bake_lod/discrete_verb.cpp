@@ -75,7 +75,6 @@ Result<discrete::Chain> bake(const DiscreteArgs& args, std::vector<mesh::MeshFil
                              const command::Common& common) {
     command::Progress progress(common, "baking");
     auto say = [&](double share) { progress.set(share); };
-    done.is_cut = files.size() == 1 && args.levels_from != "files";
     if (!done.is_cut) {
         discrete::LevelsChainOptions options;
         options.bake = args.choices.bake;
@@ -212,7 +211,13 @@ int bake_discrete(DiscreteArgs args, const command::Common& common) {
     auto begin = std::chrono::steady_clock::now();
     auto files = read_meshes(args);
     if (!files) return command::fail(kName, files.error());
+    bool is_cut = files->size() == 1 && args.levels_from != "files";
+    if (!is_cut && (args.impostors != "none" || args.plain_px > 0))
+        return command::fail(kName, Error{Exit::bad_command,
+                                          "levels made by hand are drawn as they are; leave --impostors and "
+                                          "--plain-px out"});
     DiscreteDone done;
+    done.is_cut = is_cut;
     for (const mesh::MeshFile& file : *files) done.inputs.push_back(file.report);
     done.read_s = seconds_since(begin);
 
