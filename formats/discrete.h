@@ -54,6 +54,8 @@ struct Level {
     float error_m = 0;
     // Of level 0's area, what is lost beyond that (leaves that are gone as a whole): 0..1. Never less than the finer level's.
     float lost_area_share = 0;
+    // Of level 0's area, what a level of billboards covers more of the view than level 0 does; as lost_area_share, >= 0.
+    float added_area_share = 0;
     bool is_plain = false;  // drawn without texture and with one normal a face: a cheaper shader
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;  // three a triangle, in the order of draws, counter-clockwise seen from outside
@@ -106,7 +108,9 @@ struct Chain {
     double uv_step = 0;
     caveclod::Attributes attributes;
     std::vector<caveclod::Surface> surfaces;  // of all levels
-    std::vector<Level> levels;                // 1..kMostLevels, finest first
+    // The last so many surfaces are pictures of billboards: alpha-masked, seen from both sides, drawn by such levels alone.
+    uint32_t picture_count = 0;
+    std::vector<Level> levels;  // 1..kMostLevels, finest first
     std::vector<Part> parts{Part{}};
     double clip_s = 0;  // how long it is; 0: nothing moves
     // Bounds the two-sided distance between level 0 and what it was baked from.

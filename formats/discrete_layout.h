@@ -22,7 +22,7 @@ constexpr container::Tag kVisibilityTag = container::tag("DVIS");
 
 // Offsets within DINF, in bytes.
 namespace info_at {
-constexpr size_t levels = 0, parts = 4, surfaces = 8, visibilities = 12, attributes = 16, reserved = 20, origin_m = 24,
+constexpr size_t levels = 0, parts = 4, surfaces = 8, visibilities = 12, attributes = 16, pictures = 20, origin_m = 24,
                  position_step_m = 48, uv_low = 56, uv_step = 72, middle_m = 80, radius_m = 104, clip_s = 112,
                  finest_error_m = 120, bytes = 128;
 }
@@ -32,7 +32,7 @@ constexpr double kMostClip_s = 1e6;
 // Offsets within an entry of DLEV, in bytes.
 namespace level_at {
 constexpr size_t rung = 0, flags = 4, error_m = 8, lost_area_share = 12, vertices = 16, indices = 20, draws = 24,
-                 vertex_bytes = 28, index_bytes = 32, reserved = 36, entry_bytes = 40;
+                 vertex_bytes = 28, index_bytes = 32, added_area_share = 36, entry_bytes = 40;
 }
 constexpr uint32_t kIsPlain = 1;
 constexpr uint32_t kCountMax = 1u << 28;
@@ -78,6 +78,7 @@ Fault fault_of_places(const Chain& chain);                         // D4
 Fault fault_of_errors(const Chain& chain);                         // D9
 Fault fault_of_level(const Level& level, uint32_t part_count);     // D11, D12
 Fault fault_of_draws(const Level& level, uint32_t surface_count);  // D13
+Fault fault_of_pictures(const Chain& chain);                       // D19
 Fault fault_of_part(const Part& part, double clip_s, bool rests);  // D15, D16
 Fault fault_of_sphere(const Chain& chain);                         // D17
 Fault fault_of_visibility(const Visibility& visibility);           // D18, but for the count of its values

@@ -70,10 +70,10 @@ Fault ChainReader::read_places(std::span<const std::byte> bytes) {
 }
 
 Fault ChainReader::read_attributes(std::span<const std::byte> bytes) {
-    auto attributes = load_le<uint32_t>(bytes, info_at::attributes), reserved = load_le<uint32_t>(bytes, info_at::reserved);
+    auto attributes = load_le<uint32_t>(bytes, info_at::attributes);
     chain_.attributes = {(attributes & kHasNormals) != 0, (attributes & kHasUvs) != 0, (attributes & kHasColours) != 0};
-    if (attributes <= 7 && reserved == 0) return {};
-    return {5, fmt::format("attributes {}, a reserved number of {}", attributes, reserved)};
+    if (attributes <= 7) return {};
+    return {5, fmt::format("attributes {}", attributes)};
 }
 
 Fault ChainReader::read_entry(std::span<const std::byte> entry, size_t level) {
@@ -81,7 +81,7 @@ Fault ChainReader::read_entry(std::span<const std::byte> entry, size_t level) {
     LevelSize size{get(level_at::vertices), get(level_at::indices), get(level_at::draws), get(level_at::vertex_bytes),
                    get(level_at::index_bytes)};
     uint32_t rung = get(level_at::rung), flags = get(level_at::flags);
-    bool is_known = rung <= uint32_t(Rung::impostor) && flags <= kIsPlain && get(level_at::reserved) == 0;
+    bool is_known = rung <= uint32_t(Rung::impostor) && flags <= kIsPlain;
     bool is_some = size.vertices > 0 && size.indices > 0 && size.indices % 3 == 0 && size.draws > 0;
     bool fits = size.vertices <= kCountMax && size.indices <= kCountMax &&
                 uint64_t(size.vertices) * sizeof(Vertex) <= uint64_t(size.vertex_bytes) * kRecordBytesPerPackedByte &&
@@ -93,6 +93,7 @@ Fault ChainReader::read_entry(std::span<const std::byte> entry, size_t level) {
     Level& made = chain_.levels.emplace_back();
     made.rung = Rung(rung), made.is_plain = (flags & kIsPlain) != 0;
     made.error_m = load_f32(entry, level_at::error_m), made.lost_area_share = load_f32(entry, level_at::lost_area_share);
+    made.added_area_share = load_f32(entry, level_at::added_area_share);
     return {};
 }
 
@@ -173,6 +174,8 @@ Result<Chain> ChainReader::run() {
     if (!directory) return tl::unexpected(directory.error());
     if (Fault fault = read_levels(*directory, *geometry)) return broken(file_, fault);
     if (auto ok = read_geometry(*geometry); !ok) return tl::unexpected(ok.error());
+    chain_.picture_count = load_le<uint32_t>(*head, info_at::pictures);
+    if (Fault fault = fault_of_pictures(chain_)) return broken(file_, fault);
     if (auto ok = read_parts(*parts); !ok) return tl::unexpected(ok.error());
     if (Fault fault = fault_of_sphere(chain_)) return broken(file_, fault);
     if (auto ok = read_visibility(); !ok) return tl::unexpected(ok.error());

@@ -7,20 +7,19 @@
 namespace overlook::discrete {
 namespace {
 
-constexpr std::array<std::string_view, 18> kRules{
+constexpr std::array<std::string_view, 19> kRules{
     "The file's kind is DISC and it has the sections DINF, DLEV, DGEO, DSUR and DPRT.",
     "DINF is 128 bytes long.",
     "There are 1 to 32 levels, 1 to 1,024 parts, 1 to 65,536 surfaces, and visibility for each change of levels, or once, or not "
     "at all.",
     "Places, steps, radius, clip and finest error are finite and in their ranges.",
-    "The attributes are known ones, the reserved number is 0.",
+    "The attributes are known ones.",
     "DSUR decodes to exactly the surfaces stated, with printable names of at most 4,096 bytes.",
     "DLEV, uncompressed, has an entry of 40 bytes for each level, of a known rung, with a triangle at least and no more than its "
     "bytes can hold.",
     "DGEO is its levels, one after the other, the last ending with it.",
-    "Level 0 has no error and has lost nothing; errors and lost shares are finite, shares at most 1, and neither falls from "
-    "level "
-    "to level.",
+    "Level 0 has no error and has lost and added nothing; errors and shares are finite and not negative, lost shares at most 1, "
+    "and neither errors nor lost shares fall from level to level.",
     "A level's vertices and triangles decode to exactly those stated.",
     "A vertex belongs to a part that is there, its normal to the octahedron.",
     "An index names a vertex that is there.",
@@ -31,6 +30,8 @@ constexpr std::array<std::string_view, 18> kRules{
     "What rests lies within the sphere.",
     "DVIS decodes to exactly the pictures and volumes stated, of 1 to 4,096 values a side and 2^24 in all, pictures 1 deep, with "
     "a period above 0.",
+    "Pictures of billboards are the last of the surfaces, alpha-masked, each with a picture, and drawn by levels of billboards "
+    "alone.",
 };
 
 bool is_between(double value, double low, double high) {
@@ -65,10 +66,11 @@ Fault fault_of_errors(const Chain& chain) {
     for (size_t k = 0; k < chain.levels.size(); ++k) {
         const Level& level = chain.levels[k];
         bool is_in_order = level.error_m >= error_m && std::isfinite(level.error_m) && level.lost_area_share >= lost &&
-                           level.lost_area_share <= 1;
-        if (!is_in_order || (k == 0 && (level.error_m != 0 || level.lost_area_share != 0)))
-            return {9, fmt::format("level {} has an error of {} m and has lost {}, the one before {} m and {}", k, level.error_m,
-                                   level.lost_area_share, error_m, lost)};
+                           level.lost_area_share <= 1 && level.added_area_share >= 0 && std::isfinite(level.added_area_share);
+        bool is_whole = level.error_m == 0 && level.lost_area_share == 0 && level.added_area_share == 0;
+        if (!is_in_order || (k == 0 && !is_whole))
+            return {9, fmt::format("level {} has an error of {} m, has lost {} and added {}; the one before {} m and {}", k,
+                                   level.error_m, level.lost_area_share, level.added_area_share, error_m, lost)};
         error_m = level.error_m, lost = level.lost_area_share;
     }
     return {};
@@ -100,6 +102,22 @@ Fault fault_of_draws(const Level& level, uint32_t surface_count) {
         next += draw.index_count;
     }
     if (next != level.indices.size()) return {13, fmt::format("its draws hold {} indices of {}", next, level.indices.size())};
+    return {};
+}
+
+Fault fault_of_pictures(const Chain& chain) {
+    if (chain.picture_count > chain.surfaces.size())
+        return {19,
+                fmt::format("{} pictures of billboards are stated, of {} surfaces", chain.picture_count, chain.surfaces.size())};
+    size_t first = chain.surfaces.size() - chain.picture_count;
+    for (size_t s = first; s < chain.surfaces.size(); ++s)
+        if (!chain.surfaces[s].is_alpha_masked || chain.surfaces[s].texture_bytes.empty())
+            return {19, fmt::format("surface {} is a picture of billboards without a mask or a picture", s)};
+    for (size_t k = 0; k < chain.levels.size(); ++k)
+        for (const Draw& draw : chain.levels[k].draws)
+            if (draw.surface >= first && chain.levels[k].rung != Rung::billboards)
+                return {19, fmt::format("level {} draws surface {}, a picture of billboards, and is of rung {}", k, draw.surface,
+                                        uint32_t(chain.levels[k].rung))};
     return {};
 }
 

@@ -40,6 +40,7 @@ Fault fault_of(const Chain& chain) {
         if (Fault fault = fault_of_level(level, uint32_t(chain.parts.size()))) return fault;
         if (Fault fault = fault_of_draws(level, uint32_t(chain.surfaces.size()))) return fault;
     }
+    if (Fault fault = fault_of_pictures(chain)) return fault;
     for (size_t p = 0; p < chain.parts.size(); ++p)
         if (Fault fault = fault_of_part(chain.parts[p], chain.clip_s, p == 0)) return fault;
     for (const Visibility& v : chain.visibility)
@@ -54,6 +55,7 @@ std::vector<std::byte> info_bytes(const Chain& chain) {
     put(info_at::surfaces, chain.surfaces.size()), put(info_at::visibilities, chain.visibility.size());
     put(info_at::attributes, (chain.attributes.normals ? kHasNormals : 0) | (chain.attributes.uvs ? kHasUvs : 0) |
                                  (chain.attributes.colours ? kHasColours : 0));
+    put(info_at::pictures, chain.picture_count);
     for (int axis = 0; axis < 3; ++axis) {
         store_f64(bytes, info_at::origin_m + 8 * size_t(axis), chain.origin_m[axis]);
         store_f64(bytes, info_at::middle_m + 8 * size_t(axis), chain.middle_m[axis]);
@@ -70,6 +72,7 @@ void store_entry(std::span<std::byte> entry, const Level& level, const LevelSize
     store_le<uint32_t>(entry, level_at::flags, level.is_plain ? kIsPlain : 0);
     store_f32(entry, level_at::error_m, level.error_m);
     store_f32(entry, level_at::lost_area_share, level.lost_area_share);
+    store_f32(entry, level_at::added_area_share, level.added_area_share);
     store_le<uint32_t>(entry, level_at::vertices, size.vertices), store_le<uint32_t>(entry, level_at::indices, size.indices);
     store_le<uint32_t>(entry, level_at::draws, size.draws), store_le<uint32_t>(entry, level_at::vertex_bytes, size.vertex_bytes);
     store_le<uint32_t>(entry, level_at::index_bytes, size.index_bytes);

@@ -183,7 +183,8 @@ Result<void> Drawing::make_looks(const Mesh& mesh) {
             else
                 picture = std::move(*decoded);
         }
-        Result<gl::Texture> texture = gl::make_texture(picture);
+        Result<gl::Texture> texture =
+            surface.is_alpha_masked ? gl::make_masked_texture(picture, surface.alpha_cutoff) : gl::make_texture(picture);
         if (!texture) return impossible("{}: {}", surface.texture, texture.error().message);
         Look look;
         look.picture = std::move(*texture);

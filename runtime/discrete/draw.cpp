@@ -135,7 +135,8 @@ Result<void> Drawing::make_looks() {
             else
                 picture = std::move(*decoded);
         }
-        Result<gl::Texture> texture = gl::make_texture(picture);
+        Result<gl::Texture> texture =
+            surface.is_alpha_masked ? gl::make_masked_texture(picture, surface.alpha_cutoff) : gl::make_texture(picture);
         if (!texture) return impossible("{}: {}", surface.texture, texture.error().message);
         bytes_ += picture.pixels.size();
         Look look;
@@ -143,6 +144,7 @@ Result<void> Drawing::make_looks() {
         look.colour = {linear_of(surface.colour[0]), linear_of(surface.colour[1]), linear_of(surface.colour[2]),
                        float(surface.colour[3]) / 255};
         if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
+        look.is_picture = looks_.size() >= chain_->surfaces.size() - chain_->picture_count;
         looks_.push_back(std::move(look));
     }
     return {};
@@ -219,6 +221,7 @@ void Drawing::draw_calls(const gl::Program& program, const ListBuffers& buffers,
         glBindTextureUnit(0, look.picture.id());
         glUniform4fv(program.at("base_colour"), 1, glm::value_ptr(look.colour));
         glUniform1f(program.at("alpha_cutoff"), look.alpha_cutoff);
+        glUniform1i(program.at("is_card"), look.is_picture ? 1 : 0);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                     reinterpret_cast<const void*>(sizeof(Command) * size_t(call.first_command)),
                                     GLsizei(call.command_count), 0);

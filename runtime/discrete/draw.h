@@ -58,11 +58,13 @@ class Drawing {
                     const DrawOptions& options) const;
     // Fills the pixels in which nothing is drawn yet; their depth stays as far as it was.
     void draw_background(const view::Camera& camera, const DrawOptions& options) const;
+
   private:
     struct Look {
         gl::Texture picture;
-        glm::vec4 colour{1};     // linear
-        float alpha_cutoff = 0;  // what is more transparent is not drawn
+        glm::vec4 colour{1};      // linear
+        float alpha_cutoff = 0;   // what is more transparent is not drawn
+        bool is_picture = false;  // of billboards
     };
     Result<void> upload_levels();
     Result<void> make_looks();

@@ -93,6 +93,7 @@ layout(binding = 0) uniform sampler2D picture;
 uniform vec4 base_colour;
 uniform float alpha_cutoff;
 uniform bool has_normals;
+uniform bool is_card;
 layout(location = 0) out vec4 colour;
 
 // SHADING_ROUNDS: so many lights more, all round, each with a highlight: a shader that is dear.
@@ -117,7 +118,8 @@ vec3 own_colour(bool is_plain) {
     vec3 flat_normal = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
     if (dot(flat_normal, surface.relative_m) > 0.0) flat_normal = -flat_normal;
     vec3 normal = has_normals && !is_plain ? normalize(surface.normal) : flat_normal;
-    if (dot(normal, flat_normal) < 0.0) normal = -normal;
+    // What is seen from behind: of a surface its other side; of a card the thing itself, to which its normals belong.
+    if (dot(normal, flat_normal) < 0.0) normal = is_card ? reflect(normal, flat_normal) : -normal;
     float light = 0.25 + 0.6 * max(0.0, dot(normal, normalize(vec3(-0.5, -0.3, 0.8))));
 #if SHADING_ROUNDS > 0
     light = 0.5 * light + 0.5 * further_light(normal, -normalize(surface.relative_m));

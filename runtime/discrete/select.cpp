@@ -26,8 +26,9 @@ ChainFacts facts_of(const Chain& chain) {
     double area = chain.levels.empty() ? 0 : area_m2(chain, chain.levels[0]);
     double outline = 4 * std::numbers::pi * chain.radius_m;
     for (const Level& level : chain.levels) {
-        double lost_m = chain.radius_m > 0 ? level.lost_area_share * area / outline : 0;
-        facts.levels.push_back({level.error_m, lost_m, level.triangle_count(), bunches_of(chain, level)});
+        double share = std::max(level.lost_area_share, level.added_area_share);
+        double changed_m = chain.radius_m > 0 ? share * area / outline : 0;
+        facts.levels.push_back({level.error_m, changed_m, level.triangle_count(), bunches_of(chain, level)});
     }
     return facts;
 }

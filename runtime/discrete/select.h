@@ -20,8 +20,8 @@ namespace overlook::discrete {
 
 struct LevelFacts {
     double error_m = 0;
-    // Lost area as a displacement: of level 0's area A (each triangle once) and the share s that is lost, s A / 2 is seen on the
-    // mean over all directions, which is what the outline of the sphere round the thing, of radius r, sweeps when it moves by
+    // Lost or added area as a displacement: of level 0's area A (each triangle once) and the greater share s, s A / 2 is seen on
+    // the mean over all directions, which is what the outline of the sphere round the thing, of radius r, sweeps when it moves by
     // s A / (4 pi r).
     double area_error_m = 0;
     uint64_t triangle_count = 0;

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "runtime/gl/masked_levels.h"
+
 namespace overlook::gl {
 namespace {
 
@@ -76,6 +78,16 @@ Result<Texture> make_texture(const ImageRgb8& image) {
 
 Result<Texture> make_texture(const ImageRgba8& image) {
     return make_filtered(image.width, image.height, GL_RGBA, image.pixels.data());
+}
+
+Result<Texture> make_masked_texture(const ImageRgba8& image, float cutoff) {
+    Result<Texture> texture = make_texture(image);
+    if (!texture) return texture;
+    GLint level = 0;
+    for (const ImageRgba8& smaller : masked_levels(image, cutoff))
+        glTextureSubImage2D(texture->id(), ++level, 0, 0, GLsizei(smaller.width), GLsizei(smaller.height), GL_RGBA,
+                            GL_UNSIGNED_BYTE, smaller.pixels.data());
+    return texture;
 }
 
 StreamBuffer::StreamBuffer() {

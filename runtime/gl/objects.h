@@ -53,6 +53,8 @@ Texture make_view(GLuint buffer, GLenum format);
 // renderer (16384 at most)".
 Result<Texture> make_texture(const ImageRgb8& image);
 Result<Texture> make_texture(const ImageRgba8& image);
+// The same of a picture whose opacity is held against a threshold, its smaller levels by masked_levels.
+Result<Texture> make_masked_texture(const ImageRgba8& image, float cutoff);
 
 // A buffer that is filled anew every frame. What the last frame still reads is left to it: the driver gives fresh memory
 // (orphaning).

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -48,6 +50,38 @@ TEST(DiscreteCommands, BakeLookProveAndExportAWindmill) {
     Ran within = run({"baked", "export", baked, "--error-m", "1e6", "-o", folder / "level.glb", "--json"});
     expect_done(within);
     EXPECT_EQ(json_of(within)["level"], made["levels"].size() - 1);
+}
+
+TEST(DiscreteCommands, BakeAndProveBillboardsWhereTheyAreAskedFor) {
+    ScratchFolder folder;
+    expect_done(run({"make-sample", "windmills", "-o", folder.path(), "--count", "1"}));
+    std::string mesh = folder / "windmill-2.glb", baked = folder / "windmill.ovl";
+    auto rungs = [&](const char* impostors) {
+        Ran baking = run({"bake-lod", "discrete", mesh, "-o", baked, "--impostors", impostors, "--json"});
+        expect_done(baking);
+        size_t boards = 0;
+        nlohmann::json made = json_of(baking);
+        for (const auto& level : made["levels"]) boards += level["rung"] == "billboards";
+        return boards;
+    };
+    EXPECT_EQ(rungs("none"), 0u);
+    size_t boards = rungs("cloud");
+    EXPECT_GE(boards, 2u);
+    Ran looking = run({"baked", "info", baked, "--json"});
+    expect_done(looking);
+    nlohmann::json levels = json_of(looking)["chain"]["levels"];
+    EXPECT_EQ(std::count_if(levels.begin(), levels.end(), [](const auto& level) { return level["rung"] == "billboards"; }),
+              int64_t(boards));
+    Ran proving = run({"baked", "verify", baked, "--source", mesh, "--json"});
+    expect_done(proving);
+    nlohmann::json proof = json_of(proving);
+    EXPECT_GE(proof["proven_levels"].get<size_t>(), boards);
+    for (const auto& level : proof["levels"]) {
+        if (level["rung"] == "billboards") {
+            EXPECT_EQ(level["proven"], true);
+        }
+    }
+    expect_refusal(run({"bake-lod", "discrete", mesh, "-o", baked, "--impostors", "many"}), 2, "bake-lod discrete", {"many"});
 }
 
 TEST(DiscreteCommands, BakeLevelsMadeByHandInTheirOrder) {
@@ -106,6 +140,8 @@ TEST(DiscreteCommands, RefuseWhatMakesNoSense) {
     const char* name = "bake-lod discrete";
     expect_refusal(run({"bake-lod", "discrete", ball, "-o", ball}), 2, name, {"would be overwritten"});
     expect_refusal(run({"bake-lod", "discrete", ball, cube, "-o", out, "--levels-from", "cut"}), 2, name, {"cut from one mesh"});
+    for (std::array<const char*, 2> option : {std::array{"--impostors", "cloud"}, std::array{"--plain-px", "9"}})
+        expect_refusal(run({"bake-lod", "discrete", ball, cube, "-o", out, option[0], option[1]}), 2, name, {"made by hand"});
     expect_refusal(run({"bake-lod", "discrete", folder / "none.glb", "-o", out}), 3, name, {"none.glb"});
     expect_refusal(run({"bake-lod", "discrete", ball, "-o", out, "--visibility", folder / "none.png"}), 3, name, {"none.png"});
     expect_refusal(run({"bake-lod", "discrete", ball, "-o", folder / "no/such/folder.ovl"}), 4, name, {"no/such"});

@@ -81,7 +81,6 @@ std::vector<Fixture> broken_heads() {
             {"d04_infinite_clip.ovl", 4, with_f64(112, kInfinity)},
             {"d04_nan_error.ovl", 4, with_f64(120, kNan)},
             {"d05_attributes.ovl", 5, with_u32(16, 8)},
-            {"d05_reserved.ovl", 5, with_u32(20, 1)},
             {"d06_empty.ovl", 6, with([](Pieces& pieces) { pieces.surfaces.clear(); })},
             {"d06_cut_short.ovl", 6, resized(&Pieces::surfaces, -1)},
             {"d06_byte_more.ovl", 6, resized(&Pieces::surfaces, 1)},
@@ -95,7 +94,6 @@ std::vector<Fixture> broken_levels() {
             {"d07_compressed.ovl", 7, with([](Pieces& pieces) { pieces.levels_codec = 1; })},
             {"d07_rung.ovl", 7, with_entry(0, 0, 3)},
             {"d07_flags.ovl", 7, with_entry(0, 4, 2)},
-            {"d07_reserved.ovl", 7, with_entry(1, 36, 1)},
             {"d07_no_vertices.ovl", 7, with_entry(0, 16, 0)},
             {"d07_most_vertices.ovl", 7, with_entry(0, 16, 0xffffffff)},
             {"d07_more_than_bytes_hold.ovl", 7, with_entry(0, 16, 100000)},
@@ -114,6 +112,10 @@ std::vector<Fixture> broken_levels() {
             {"d09_infinite.ovl", 9, of([](Chain& chain) { chain.levels[1].error_m = kInfinityF; })},
             {"d09_loss_above_all.ovl", 9, of([](Chain& chain) { chain.levels[1].lost_area_share = 1.5f; })},
             {"d09_loss_nan.ovl", 9, of([](Chain& chain) { chain.levels[1].lost_area_share = kNanF; })},
+            {"d09_finest_added.ovl", 9, of([](Chain& chain) { chain.levels[0].added_area_share = 0.1f; })},
+            {"d09_added_negative.ovl", 9, of([](Chain& chain) { chain.levels[1].added_area_share = -0.1f; })},
+            {"d09_added_infinite.ovl", 9, of([](Chain& chain) { chain.levels[1].added_area_share = kInfinityF; })},
+            {"d09_added_nan.ovl", 9, of([](Chain& chain) { chain.levels[1].added_area_share = kNanF; })},
             {"d10_not_vertices.ovl", 10, with([](Pieces& pieces) { pieces.geometry[0] = std::byte(0x55); })},
             {"d10_vertices_more.ovl", 10, with_entry(0, 16, 250)},
             {"d10_not_indices.ovl", 10, with([](Pieces& pieces) {
@@ -151,6 +153,19 @@ std::vector<Fixture> broken_parts() {
             {"d17_elsewhere.ovl", 17, with_f64(80, 100)}};
 }
 
+std::vector<Fixture> broken_pictures() {
+    auto of_boards = [](const std::function<void(Chain&)>& change) {
+        Chain chain = boards();
+        change(chain);
+        return Pieces::of(chain).file();
+    };
+    return {{"d19_most.ovl", 19, with_u32(20, 3)},
+            {"d19_all.ovl", 19, with_u32(20, 0xffffffff)},
+            {"d19_no_mask.ovl", 19, with_u32(20, 1)},
+            {"d19_no_picture.ovl", 19, of_boards([](Chain& chain) { chain.surfaces[2].texture_bytes.clear(); })},
+            {"d19_of_a_mesh.ovl", 19, of_boards([](Chain& chain) { chain.levels[1].rung = Rung::mesh; })}};
+}
+
 std::vector<Fixture> broken_visibilities() {
     return {{"d18_missing.ovl", 18, without("DVIS")},
             {"d18_not_stated.ovl", 18, with_u32(12, 0)},
@@ -179,6 +194,7 @@ std::vector<Fixture> whole_files() {
                  for (Vertex& vertex : chain.levels[0].vertices) vertex.part = 0;
                  chain.visibility.clear(), chain.clip_s = 0;
              })},
+            {"billboards.ovl", 0, Pieces::of(boards()).file()},
             {"volume.ovl", 0, of([](Chain& chain) {
                  chain.visibility[0] = {Visibility::Lookup::volume, 2, 2, 2, 2.0f, {0, 30, 60, 90, 120, 150, 180, 210}};
              })}};
@@ -186,7 +202,7 @@ std::vector<Fixture> whole_files() {
 
 std::vector<Fixture> corrupt_files() {
     std::vector<Fixture> all;
-    for (const auto& some : {broken_heads(), broken_levels(), broken_parts(), broken_visibilities()})
+    for (const auto& some : {broken_heads(), broken_levels(), broken_parts(), broken_visibilities(), broken_pictures()})
         all.insert(all.end(), some.begin(), some.end());
     return all;
 }

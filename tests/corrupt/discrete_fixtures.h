@@ -16,6 +16,9 @@ using container::fixtures::Fixture;
 // formats/spec/discrete.md.
 Chain pyramid();
 
+// The same with a level of billboards instead of the coarser one.
+Chain boards();
+
 // A file in pieces that can be broken one by one, and put together with right checksums.
 struct Pieces {
     Bytes info, levels, geometry, surfaces, parts, visibility;

@@ -58,6 +58,16 @@ Chain pyramid() {
     return chain;
 }
 
+Chain boards() {
+    Chain chain = pyramid();
+    chain.surfaces.push_back({"billboards of level 1", {255, 255, 255, 255}, "billboards-1.png", {}, true, 0.5f, true});
+    chain.surfaces.back().texture_bytes = {std::byte(1), std::byte(2)};
+    chain.picture_count = 1;
+    Level& level = chain.levels[1];
+    level.rung = Rung::billboards, level.added_area_share = 0.5f, level.is_plain = false, level.draws[0].surface = 2;
+    return chain;
+}
+
 void Pieces::lay_out(const std::vector<Level>& all) {
     levels.assign(40 * all.size(), std::byte(0));
     geometry.clear();
@@ -67,6 +77,7 @@ void Pieces::lay_out(const std::vector<Level>& all) {
         size_t at = 40 * k;
         put_u32(levels, at, size_t(all[k].rung)), put_u32(levels, at + 4, all[k].is_plain);
         store_f32(levels, at + 8, all[k].error_m), store_f32(levels, at + 12, all[k].lost_area_share);
+        store_f32(levels, at + 36, all[k].added_area_share);
         put_u32(levels, at + 16, size.vertices), put_u32(levels, at + 20, size.indices), put_u32(levels, at + 24, size.draws);
         put_u32(levels, at + 28, size.vertex_bytes), put_u32(levels, at + 32, size.index_bytes);
         geometry.insert(geometry.end(), bytes.begin(), bytes.end());
@@ -81,6 +92,7 @@ Pieces Pieces::of(const Chain& chain) {
     put_u32(info, 12, chain.visibility.size());
     put_u32(info, 16,
             size_t(chain.attributes.normals) | size_t(chain.attributes.uvs) << 1 | size_t(chain.attributes.colours) << 2);
+    put_u32(info, 20, chain.picture_count);
     for (int axis = 0; axis < 3; ++axis) {
         store_f64(info, 24 + 8 * size_t(axis), chain.origin_m[axis]),
             store_f64(info, 80 + 8 * size_t(axis), chain.middle_m[axis]);

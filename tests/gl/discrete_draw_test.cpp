@@ -73,6 +73,31 @@ TEST(DiscreteDrawing, MovesPartsByTheClip) {
     EXPECT_LT(made::differing(begin, half_blade, 8), 40u);  // eight blades: a turn of an eighth
 }
 
+// A card's normals are those of the thing that it shows: from behind what looks up looks up still, and is as light.
+TEST(DiscreteDrawing, LightsCardsFromBehindAsTheThingThere) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    auto brightness = [](bool is_card, double from_y) {
+        Chain chain = made::empty_chain(glm::dvec3(-1), 2);
+        Level level;
+        made::add_quad(chain, level, {glm::dvec3{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, {255, 255, 255, 255});
+        for (Vertex& vertex : level.vertices) vertex.normal = made::octahedral({0, -0.6, 0.8});
+        level.rung = Rung::billboards;
+        made::end_level(chain, level, 0);
+        // A picture that does not decode is left out: the card stays white.
+        chain.surfaces[0].is_alpha_masked = true, chain.surfaces[0].texture_bytes = {std::byte(1)};
+        chain.picture_count = is_card ? 1 : 0;
+        Film film(chain, {Placement{}}, by_distance(Variant::hard));
+        view::Camera camera = camera_from({0, from_y, 0});
+        camera.heading_deg = from_y < 0 ? 0 : 180;
+        return int(overlook::test::pixel(film.frame(camera), 48, 40).green);
+    };
+    int front = brightness(true, -3), behind = brightness(true, 3);
+    EXPECT_EQ(front, brightness(false, -3));
+    // Up still, away from the light's side: between the two.
+    EXPECT_LT(behind, front);
+    EXPECT_GT(behind, brightness(false, 3) + 20);
+}
+
 // Where nothing changes its level, all variants draw the same picture.
 TEST(DiscreteDrawing, IsTheSameAtRestWhateverTheVariant) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);

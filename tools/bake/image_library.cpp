@@ -252,10 +252,7 @@ Result<PictureRgba8> read_rgba8(const PictureFile& file, std::span<const std::by
 std::optional<PictureSize> size_of(const PictureFile& file, std::span<const std::byte> bytes) {
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
     OpenImage image;
-    image.input = ImageInput::create(file.reader);
-    OIIO::geterror();
-    if (!image.input || !image.input->set_ioproxy(&memory) || !image.input->open(file.path, image.spec)) return std::nullopt;
-    if (image.spec.width <= 0 || image.spec.height <= 0) return std::nullopt;
+    if (!open_memory(file, memory, image)) return std::nullopt;
     PictureSize size{uint32_t(image.spec.width), uint32_t(image.spec.height)};
     image.input->close();
     return size;

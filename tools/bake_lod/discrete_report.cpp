@@ -12,11 +12,14 @@ using nlohmann::ordered_json;
 ordered_json levels_json(const DiscreteArgs& args, const discrete::Chain& chain) {
     ordered_json levels = ordered_json::array();
     for (const discrete::Level& level : chain.levels)
-        levels.push_back({{"triangles", level.triangle_count()},
+        levels.push_back({{"rung", level.rung == discrete::Rung::billboards ? "billboards" : "mesh"},
+                          {"triangles", level.triangle_count()},
                           {"vertices", level.vertices.size()},
                           {"draws", level.draws.size()},
                           {"error_m", double(level.error_m)},
                           {"lost_area_share", double(level.lost_area_share)},
+                          {"added_area_share", double(level.added_area_share)},
+                          {"plain", level.is_plain},
                           {"from_m", args.ladder.view.distance_m(double(level.error_m))}});
     return levels;
 }
@@ -24,9 +27,11 @@ ordered_json levels_json(const DiscreteArgs& args, const discrete::Chain& chain)
 ordered_json tried_json(const discrete::MeshChainReport& cut) {
     ordered_json tried = ordered_json::array();
     for (const discrete::TriedLevel& level : cut.tried)
-        tried.push_back({{"triangles", level.candidate.triangle_count},
+        tried.push_back({{"kind", level.kind},
+                         {"triangles", level.candidate.triangle_count},
                          {"error_m", level.candidate.error_m},
                          {"lost_area_share", level.lost_area_share},
+                         {"added_area_share", level.added_area_share},
                          {"kept", level.verdict.is_kept},
                          {"why", level.verdict.why}});
     return tried;
@@ -66,9 +71,9 @@ void print_why(const DiscreteArgs& args, const DiscreteDone& done) {
                view.error_px);
     if (done.is_cut) {
         for (const discrete::TriedLevel& level : done.cut.tried)
-            fmt::print("  {} {:>9} triangles, off by {:.4g} m, {:.1f} % of the area lost: {}\n",
-                       level.verdict.is_kept ? "+" : "-", with_commas(level.candidate.triangle_count), level.candidate.error_m,
-                       100 * level.lost_area_share, level.verdict.why);
+            fmt::print("  {} {:>9} triangles ({}), off by {:.4g} m, {:.1f} % of the area lost, {:.1f} % added: {}\n",
+                       level.verdict.is_kept ? "+" : "-", with_commas(level.candidate.triangle_count), level.kind,
+                       level.candidate.error_m, 100 * level.lost_area_share, 100 * level.added_area_share, level.verdict.why);
         return;
     }
     for (size_t k = 0; k < done.measured.size(); ++k)

@@ -54,10 +54,11 @@ Result<uint64_t> write_file(const DiscreteArgs& args, const DiscreteDone& done, 
     if (args.visibility_period_m != 1) add("visibility-period-m", fmt::format("{}", args.visibility_period_m));
     if (done.is_cut) {
         const discrete::LadderOptions& ladder = args.ladder;
-        add("foliage", args.foliage), add("factor", fmt::format("{}", ladder.factor));
+        add("foliage", args.foliage), add("impostors", args.impostors), add("factor", fmt::format("{}", ladder.factor));
         add("least-triangles", fmt::format("{}", ladder.least_triangles)),
             add("least-saving", fmt::format("{}", ladder.least_saving)),
             add("most-levels", fmt::format("{}", ladder.most_levels));
+        if (args.plain_px > 0) add("plain-px", fmt::format("{}", args.plain_px));
         add("view",
             fmt::format("{} px, {} deg, {} px allowed", ladder.view.height_px, ladder.view.fov_y_deg, ladder.view.error_px));
     }
@@ -74,7 +75,6 @@ Result<discrete::Chain> bake(const DiscreteArgs& args, std::vector<mesh::MeshFil
                              const command::Common& common) {
     command::Progress progress(common, "baking");
     auto say = [&](double share) { progress.set(share); };
-    done.is_cut = files.size() == 1 && args.levels_from != "files";
     if (!done.is_cut) {
         discrete::LevelsChainOptions options;
         options.bake = args.choices.bake;
@@ -82,6 +82,11 @@ Result<discrete::Chain> bake(const DiscreteArgs& args, std::vector<mesh::MeshFil
     }
     discrete::MeshChainOptions options;
     options.bake = args.choices.bake, options.ladder = args.ladder;
+    options.impostors = args.impostors == "none"    ? discrete::Impostors::none
+                        : args.impostors == "cross" ? discrete::Impostors::cross
+                        : args.impostors == "cloud" ? discrete::Impostors::cloud
+                                                    : discrete::Impostors::automatic;
+    options.plain_px = args.plain_px;
     options.thins_foliage = args.foliage != "keep", options.grows_foliage = args.foliage == "grow";
     auto chain = discrete::chain_from_mesh(files[0], options, done.cut, say);
     if (!chain) return tl::unexpected(Error{chain.error().exit, args.meshes[0] + ": " + chain.error().message});
@@ -159,6 +164,20 @@ void add_level_options(CLI::App& verb, DiscreteArgs& args) {
             "lost")
         ->check(CLI::IsMember({"grow", "thin", "keep"}))
         ->capture_default_str();
+    verb.add_option("--impostors", args.impostors,
+                    "Levels of billboards, tried beside those that are cut: cards with pictures of the thing, each part's by "
+                    "itself, and a "
+                    "proven bound like any other's. cloud: flat pieces on cards that lie along them, foliage on slices across "
+                    "it, what is "
+                    "solid stays a mesh. cross: two or three upright cards that cross. auto: both. none: no billboards")
+        ->check(CLI::IsMember({"auto", "none", "cross", "cloud"}))
+        ->capture_default_str();
+    verb.add_option(
+            "--plain-px", args.plain_px,
+            "Levels that are cut and asked for only where the thing is less than so many pixels wide are drawn by a simpler "
+            "shader, without textures and with one normal a face, but for those with alpha masks; 0: none")
+        ->check(command::number_in(0, 1e6))
+        ->capture_default_str();
     verb.add_flag("--why", args.why, "Say what was tried, and which distances ask for each level");
     verb.add_option("--visibility", args.visibility,
                     "What comes first when a level fades in: " + discrete::visibility_names() + ", or a picture file")
@@ -192,7 +211,13 @@ int bake_discrete(DiscreteArgs args, const command::Common& common) {
     auto begin = std::chrono::steady_clock::now();
     auto files = read_meshes(args);
     if (!files) return command::fail(kName, files.error());
+    bool is_cut = files->size() == 1 && args.levels_from != "files";
+    if (!is_cut && (args.impostors != "none" || args.plain_px > 0))
+        return command::fail(kName, Error{Exit::bad_command,
+                                          "levels made by hand are drawn as they are; leave --impostors and "
+                                          "--plain-px out"});
     DiscreteDone done;
+    done.is_cut = is_cut;
     for (const mesh::MeshFile& file : *files) done.inputs.push_back(file.report);
     done.read_s = seconds_since(begin);
 

@@ -15,11 +15,11 @@ namespace overlook::bake_lod {
 struct DiscreteArgs {
     std::vector<std::string> meshes;
     std::string output;
-    std::string up = "auto", seams = "budgeted", levels_from = "auto", foliage = "grow", visibility = "noise";
+    std::string up = "auto", seams = "budgeted", levels_from = "auto", foliage = "grow", visibility = "noise", impostors = "none";
     bool why = false;
     mesh::BakeChoices choices;
     discrete::LadderOptions ladder;
-    double visibility_period_m = 1;
+    double visibility_period_m = 1, plain_px = 0;
 };
 
 CLI::App* add_discrete_verb(CLI::App& app, DiscreteArgs& args, command::Common& common);

@@ -30,6 +30,7 @@ std::string chain_json(const discrete::Chain& chain) {
                                   {"draws", level.draws.size()},
                                   {"error_m", double(level.error_m)},
                                   {"lost_area_share", double(level.lost_area_share)},
+                                  {"added_area_share", double(level.added_area_share)},
                                   {"plain", level.is_plain}});
     for (const discrete::Part& part : chain.parts) json["parts"].push_back({{"name", part.name}, {"keys", part.at_s.size()}});
     for (const caveclod::Surface& surface : chain.surfaces)
@@ -50,10 +51,13 @@ void print_chain(const discrete::Chain& chain) {
                chain.radius_m);
     for (size_t k = 0; k < chain.levels.size(); ++k) {
         const discrete::Level& level = chain.levels[k];
-        fmt::print("  level {}: {:>9} triangles, {:>9} vertices, {} draws; within {:.4g} m of {}, {:.1f} % of the area lost\n", k,
-                   with_commas(level.triangle_count()), with_commas(level.vertices.size()), level.draws.size(),
+        fmt::print("  level {}: {:>9} triangles, {:>9} vertices, {} draws; within {:.4g} m of {}, {:.1f} % of the area lost{}\n",
+                   k, with_commas(level.triangle_count()), with_commas(level.vertices.size()), level.draws.size(),
                    k == 0 ? chain.finest_error_m : double(level.error_m), k == 0 ? "the source" : "level 0",
-                   100 * double(level.lost_area_share));
+                   100 * double(level.lost_area_share),
+                   level.rung == discrete::Rung::mesh
+                       ? std::string()
+                       : fmt::format(", {:.1f} % added; {}", 100 * double(level.added_area_share), kRungs[size_t(level.rung)]));
     }
     for (const discrete::Part& part : chain.parts)
         if (!part.at_s.empty()) fmt::print("moves: {} ({} keys over {:g} s)\n", part.name, part.at_s.size(), chain.clip_s);

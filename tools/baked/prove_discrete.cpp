@@ -5,6 +5,7 @@
 
 #include "formats/parallel.h"
 #include "tools/bake/discrete/from_levels.h"
+#include "tools/bake/discrete/seen_area.h"
 
 namespace overlook::discrete {
 namespace {
@@ -46,16 +47,60 @@ double out_of_sphere_m(const Chain& chain) {
     return most_m;
 }
 
+caveclod::Distance distance_of_billboards(const Chain& chain, const Level& level, const std::vector<Mask>& masks,
+                                          const LevelsChainOptions& options) {
+    caveclod::Distance worst;
+    for (uint32_t part = 0; part < chain.parts.size(); ++part) {
+        std::vector<caveclod::Triangle> finest = triangles_of(chain, chain.levels[0], part);
+        DrawnSets drawn = drawn_sets(chain, level, part, masks);
+        if (finest.empty() && drawn.most.empty()) continue;
+        caveclod::Distance distance{0, 2 * chain.radius_m};
+        if (!finest.empty() && !drawn.least.empty())
+            distance = distance_to_drawn(finest, drawn, options.gap, options.floor_share * chain.radius_m, options.most_steps);
+        worst = {std::max(worst.least_m, distance.least_m), std::max(worst.most_m, distance.most_m)};
+    }
+    return worst;
+}
+
+// Rays that just hit or miss may do the other where a triangle's corners come in another order.
+bool is_more(double found, double stated) {
+    return found > 1.02 * stated + 1e-4;
+}
+
+Result<void> prove_areas(const Chain& chain, ChainProof& proof) {
+    auto looks = Looks::make(chain.surfaces);
+    if (!looks) return tl::unexpected(looks.error());
+    double area_m2 = area_of(chain, chain.levels[0]);
+    auto finest_m2 = seen_areas_m2(chain, chain.levels[0], *looks);
+    for (size_t k = 1; k < chain.levels.size(); ++k) {
+        LevelProof& found = proof.levels[k];
+        if (found.rung != Rung::billboards) continue;
+        SeenChange seen = seen_change(finest_m2, seen_areas_m2(chain, chain.levels[k], *looks), area_m2);
+        found.lost = seen.lost, found.added = seen.added;
+        found.area_is_broken = is_more(found.lost, found.stated_lost) || is_more(found.added, found.stated_added);
+    }
+    return {};
+}
+
 }  // namespace
+
+size_t ChainProof::proven_count() const {
+    return size_t(std::count_if(levels.begin(), levels.end(), [](const LevelProof& level) { return level.is_proven; })) -
+           (!levels.empty() && levels[0].is_proven ? 1 : 0);
+}
 
 bool ChainProof::holds() const {
     double slack_m = 1e-5 * (1 + finest_stated_m);
     return !finest_is_broken && moved_most_m <= slack_m &&
-           std::none_of(levels.begin(), levels.end(), [](const LevelProof& level) { return level.is_broken; });
+           std::none_of(levels.begin(), levels.end(),
+                        [](const LevelProof& level) { return level.is_broken || level.area_is_broken; });
 }
 
-ChainProof prove(const Chain& chain, std::span<const mesh::MeshFile> sources, const std::function<void(double)>& progress) {
+Result<ChainProof> prove(const Chain& chain, std::span<const mesh::MeshFile> sources,
+                         const std::function<void(double)>& progress) {
     ChainProof proof;
+    auto masks = masks_of(chain);
+    if (!masks) return tl::unexpected(masks.error());
     proof.finest_stated_m = chain.finest_error_m;
     double rounding_m = kRoundingShare * (chain.radius_m + glm::length(chain.middle_m));
     LevelsChainOptions options;
@@ -75,13 +120,18 @@ ChainProof prove(const Chain& chain, std::span<const mesh::MeshFile> sources, co
     parallel_ranges(chain.levels.size(), 1, [&](size_t k, size_t) {
         const Level& level = chain.levels[k];
         LevelProof& found = proof.levels[k];
-        found.triangle_count = level.triangle_count(), found.stated_m = double(level.error_m);
-        if (k > 0) found.measured = distance_of_levels(chain, chain.levels[0], level, options);
+        found.rung = level.rung, found.triangle_count = level.triangle_count(), found.stated_m = double(level.error_m);
+        if (level.rung == Rung::billboards)
+            found.measured = distance_of_billboards(chain, level, *masks, options);
+        else if (k > 0)
+            found.measured = distance_of_levels(chain, chain.levels[0], level, options);
         found.is_broken = found.measured.least_m > found.stated_m * (1 + 1e-6) + rounding_m;
         found.is_proven = found.measured.most_m <= found.stated_m * (1 + 1e-6) + rounding_m;
-        found.stated_lost = double(level.lost_area_share);
+        found.stated_lost = double(level.lost_area_share), found.stated_added = double(level.added_area_share);
         found.lost = finest_area_m2 > 0 ? std::max(0.0, 1 - area_of(chain, level) / finest_area_m2) : 0;
     });
+    if (chain.picture_count > 0)
+        if (auto areas = prove_areas(chain, proof); !areas) return tl::unexpected(areas.error());
     progress(1);
     return proof;
 }

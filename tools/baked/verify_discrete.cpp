@@ -20,16 +20,21 @@ ordered_json json_of(const discrete::ChainProof& proof) {
                       {"finest_least_m", proof.finest.least_m},
                       {"finest_most_m", proof.finest.most_m},
                       {"out_of_sphere_m", proof.moved_most_m},
+                      {"proven_levels", proof.proven_count()},
                       {"levels", ordered_json::array()}};
     for (const discrete::LevelProof& level : proof.levels)
-        json["levels"].push_back({{"triangles", level.triangle_count},
+        json["levels"].push_back({{"rung", level.rung == discrete::Rung::billboards ? "billboards" : "mesh"},
+                                  {"triangles", level.triangle_count},
                                   {"stated_m", level.stated_m},
                                   {"least_m", level.measured.least_m},
                                   {"most_m", level.measured.most_m},
                                   {"broken", level.is_broken},
                                   {"proven", level.is_proven},
                                   {"stated_lost_area_share", level.stated_lost},
-                                  {"area_less_share", level.lost}});
+                                  {"area_less_share", level.lost},
+                                  {"stated_added_area_share", level.stated_added},
+                                  {"area_more_share", level.added},
+                                  {"area_broken", level.area_is_broken}});
     return json;
 }
 
@@ -39,13 +44,18 @@ void print_text(const discrete::ChainProof& proof) {
     for (size_t k = 1; k < proof.levels.size(); ++k) {
         const discrete::LevelProof& level = proof.levels[k];
         fmt::print(
-            "level {}: {:>9} triangles, off by {:.4g} to {:.4g} m, {:.4g} m promised{}; {:.1f} % less area, {:.1f} % stated\n", k,
-            with_commas(level.triangle_count), level.measured.least_m, level.measured.most_m, level.stated_m,
+            "level {}: {:>9} triangles{}, off by {:.4g} to {:.4g} m, {:.4g} m promised{}; {:.1f} % less area, {:.1f} % stated", k,
+            with_commas(level.triangle_count), level.rung == discrete::Rung::billboards ? " with billboards" : "",
+            level.measured.least_m, level.measured.most_m, level.stated_m,
             level.is_broken   ? "  BROKEN"
             : level.is_proven ? ", proven anew"
                               : "",
             100 * level.lost, 100 * level.stated_lost);
+        if (level.rung == discrete::Rung::billboards)
+            fmt::print("; {:.1f} % more, {:.1f} % stated", 100 * level.added, 100 * level.stated_added);
+        fmt::print("{}\n", level.area_is_broken ? "  BROKEN" : "");
     }
+    fmt::print("{} of {} levels proven anew\n", proof.proven_count(), proof.levels.size() - 1);
     if (proof.moved_most_m > 0) fmt::print("what moves reaches {:.3g} m out of its sphere\n", proof.moved_most_m);
     fmt::print("{}\n", proof.holds() ? "every promise holds" : "a promise is broken");
 }
@@ -98,12 +108,13 @@ int verify_discrete(const VerifyArgs& args, const container::Reader& file, const
         return command::fail(kName, Error{Exit::bad_input, fmt::format("{}: has {} levels, but was baked from {} meshes",
                                                                        args.file, chain->levels.size(), sources->size())});
     command::Progress progress(common, "proving");
-    discrete::ChainProof proof = discrete::prove(*chain, *sources, [&](double done) { progress.set(done); });
+    auto proof = discrete::prove(*chain, *sources, [&](double done) { progress.set(done); });
+    if (!proof) return command::fail(kName, Error{proof.error().exit, args.file + ": " + proof.error().message});
     if (common.json)
-        fmt::print("{}\n", json_of(proof).dump(2));
+        fmt::print("{}\n", json_of(*proof).dump(2));
     else
-        print_text(proof);
-    return int(proof.holds() ? Exit::done : Exit::answer_is_no);
+        print_text(*proof);
+    return int(proof->holds() ? Exit::done : Exit::answer_is_no);
 }
 
 }  // namespace overlook::baked

@@ -74,6 +74,29 @@ TEST(ChainFromMesh, HoldsEverythingInItsSphere) {
     for (const Level& level : chain.levels)
         for (const Vertex& v : level.vertices) EXPECT_LE(glm::distance(position_m(chain, v), chain.middle_m), chain.radius_m);
 }
+TEST(ChainFromMesh, MakesLevelsPlainThatAreSeenFromAfar) {
+    MeshChainOptions options = budgeted();
+    MeshChainReport report;
+    for (const Level& level : chain_of(ball(30, 40), options, report).levels) EXPECT_FALSE(level.is_plain);
+    options.plain_px = 40;
+    Chain chain = chain_of(ball(30, 40), options, report);
+    size_t plain = 0;
+    for (const Level& level : chain.levels) {
+        // The ball's sphere is 2.16 m to 3.75 m wide (of its box).
+        double wide_px = options.ladder.view.focal_px() / options.ladder.view.distance_m(double(level.error_m));
+        if (wide_px * 2.1 > 40) {
+            EXPECT_FALSE(level.is_plain);
+        }
+        if (wide_px * 3.8 < 40) {
+            EXPECT_TRUE(level.is_plain);
+        }
+        plain += level.is_plain;
+    }
+    EXPECT_GE(plain, 1u);
+    EXPECT_LT(plain, chain.levels.size());
+    // With masks they would be drawn without their holes.
+    for (const Level& level : chain_of(test::file_of(test::bush(300)), options, report).levels) EXPECT_FALSE(level.is_plain);
+}
 TEST(ChainFromMesh, IsTheSameForAnyNumberOfThreads) {
     std::vector<Chain> chains;
     for (unsigned threads : {1u, 4u}) {

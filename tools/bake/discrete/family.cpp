@@ -153,6 +153,21 @@ Family::Member Family::member(double distance_m) const {
     return member;
 }
 
+std::vector<Family::PartPieces> Family::pieces(double distance_m) const {
+    std::vector<PartPieces> all;
+    for (const Piece& piece : pieces_) {
+        PartPieces& made = all.emplace_back();
+        made.part = piece.part;
+        if (!piece.solid.face_positions.empty()) {
+            made.finest = shape_of(piece.solid, applied_within(piece.solid, 0), piece.part);
+            made.cut = shape_of(piece.solid, applied_within(piece.solid, distance_m), piece.part);
+        }
+        made.solid_face_count = made.finest.faces.size();
+        made.finest.add(piece.foliage.shape());
+    }
+    return all;
+}
+
 uint64_t Family::card_count() const {
     uint64_t count = 0;
     for (const Piece& piece : pieces_) count += piece.foliage.card_count();

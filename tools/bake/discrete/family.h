@@ -21,6 +21,15 @@ class Family {
         double lost_m2 = 0;
     };
     Member member(double distance_m) const;
+
+    // What can be had of a part for a level of billboards.
+    struct PartPieces {
+        uint32_t part = 0;
+        Shape finest;                 // all of it, as in member(0), what is solid first
+        size_t solid_face_count = 0;  // of finest
+        Shape cut;                    // of what is solid, within the distance
+    };
+    std::vector<PartPieces> pieces(double distance_m) const;
     double size_m() const { return size_m_; }
     double finest_error_m() const { return finest_error_m_; }  // of member(0), from the source
     const std::vector<caveclod::Surface>& surfaces() const { return surfaces_; }

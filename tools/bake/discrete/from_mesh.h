@@ -12,18 +12,26 @@
 
 namespace overlook::discrete {
 
+// Which levels of billboards are tried beside those that are cut (billboards.h).
+enum class Impostors { none, cross, cloud, automatic };
+
 struct MeshChainOptions {
     caveclod::BakeOptions bake;  // its position_bits are not used: a chain has 16
     CardOptions cards;
     bool thins_foliage = true;  // cards may be lost, and other small pieces that hang together with nothing (components.h)
     bool grows_foliage = true;  // what stays of them grows
     LadderOptions ladder;
+    Impostors impostors = Impostors::none;
+    // Levels that are asked for only from where the thing's sphere is less than so many pixels wide are plain (Level::is_plain),
+    // but for those of billboards or with masks. 0: none is.
+    double plain_px = 0;
 };
 
 // A level that was tried.
 struct TriedLevel {
+    std::string kind;  // "mesh", or that of billboards
     Candidate candidate;
-    double lost_area_share = 0;
+    double lost_area_share = 0, added_area_share = 0;
     Verdict verdict;
 };
 struct MeshChainReport {
@@ -38,8 +46,9 @@ std::vector<Part> parts_of(const mesh::Motion& motion);
 // Bakes in memory. All levels come from one family: with a distance allowed, each part's solid pieces are cut from its hierarchy
 // within it, small ones left out where what stays is within it, and each part's cards are lost and grow within it. The error of a
 // level is the lesser of that distance as it came out and of a measurement from above (surface_distance.h), and holds twice what
-// laying it on 16 bits moved. A pure function of its arguments, for any number of threads. Fails as caveclod::bake does, and with
-// Exit::impossible for more than kMostParts parts.
+// laying it on 16 bits moved. That of a level of billboards (billboards.h) is measured from above as it is stored, by its texels.
+// A pure function of its arguments, for any number of threads. Fails as caveclod::bake does, and with Exit::impossible for more
+// than kMostParts parts.
 Result<Chain> chain_from_mesh(const mesh::MeshFile& file, const MeshChainOptions& options, MeshChainReport& report,
                               const std::function<void(double)>& progress);
 
