@@ -33,7 +33,7 @@ inline void mend(std::span<std::byte> file) {
     store_le<uint64_t>(file, header_at::checksum, checksum_of_head(file.first(kFirstSectionOffset)));
 }
 
-// How a kind of file keeps its blocks: a directory of entries, and a section of blocks.
+// How a kind of file keeps its blocks: a directory of entries, and a section of blocks. A kind that has none has no checksum.
 struct Blocks {
     uint32_t kind;
     Tag directory, blocks;
@@ -45,6 +45,7 @@ struct Blocks {
 inline void mend(std::span<std::byte> file, const Blocks& kind) {
     std::span<std::byte> directory, blocks;
     visit_sections(file, [&](size_t, Tag tag, std::span<std::byte> bytes) {
+        if (!kind.checksum) return;
         if (tag == kind.directory) directory = bytes;
         if (tag == kind.blocks) blocks = bytes;
     });
