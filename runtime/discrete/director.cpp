@@ -108,9 +108,8 @@ void Director::begin(const Selector& selector) {
     }
     for (uint32_t instance : begun_) {
         State& state = states_[instance];
-        // Nothing is seen of a change before the new level is drawn.
-        bool is_old = drawn_level(state) == state.transition.from || divided_.contains(instance);
-        if (is_own && is_old) state.transition.phase = 0;
+        // Nothing is seen of a change before the new level is drawn; and what begins together ends together, shared out evenly.
+        if (is_own) state.transition.phase = 0;
         suit_grain(state, placements_[instance], selector);
     }
 }
