@@ -58,6 +58,7 @@ class Drawing {
                     const DrawOptions& options) const;
     // Fills the pixels in which nothing is drawn yet; their depth stays as far as it was.
     void draw_background(const view::Camera& camera, const DrawOptions& options) const;
+
   private:
     struct Look {
         gl::Texture picture;
