@@ -124,7 +124,8 @@ void Director::suit_grain(State& state, const Placement& placement, const Select
 }
 
 // Returns whether a change of level begins, turns or is done at once.
-bool Director::advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view) {
+bool Director::advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
+                       bool is_in_view) {
     Transition before = state.transition;
     if (!state.is_known) {
         uint32_t level = selector.wanted(placement);

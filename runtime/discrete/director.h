@@ -99,7 +99,8 @@ class Director {
         Split split;
         int64_t difference = 0;
     };
-    bool advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s, bool is_in_view);
+    bool advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
+                 bool is_in_view);
     void begin(const Selector& selector);
     void take_side(uint32_t instance);
     bool divide(uint32_t instance);
@@ -118,12 +119,12 @@ class Director {
     FrameList frame_;
     Foresight foresight_;
     std::vector<Placement> placed_before_;  // in the frame before, if they stood elsewhere
-    std::map<uint32_t, Divided> divided_;  // by instance
+    std::map<uint32_t, Divided> divided_;   // by instance
     std::vector<uint32_t> begun_;           // this frame, in view: instances
     uint64_t frame_count_ = 0;
     uint64_t last_triangle_count_ = 0;  // of the frame before
     glm::dvec3 eye_m_{0}, way_m_{0};    // of the camera, and where it came from the frame before
-    int64_t balance_ = 0;  // of the picture, while a frame is decided
+    int64_t balance_ = 0;               // of the picture, while a frame is decided
 };
 
 }  // namespace overlook::discrete

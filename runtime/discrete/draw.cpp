@@ -177,8 +177,8 @@ std::vector<double> Drawing::grain_m() const {
 
 Result<gl::Program> Drawing::program(const std::string& name, const std::string& defines, const std::string& main) const {
     std::string vertex = std::string("#version 450 core\n") + shaders::kItems + shaders::kVertex;
-    std::string fragment =
-        std::string(gl::shaders::kEncoding) + fmt::format("#define SHADING_ROUNDS {}\n", shading_rounds_) + defines + shaders::kItems + shaders::kFragment + shaders::kVisibility + main;
+    std::string fragment = std::string(gl::shaders::kEncoding) + fmt::format("#define SHADING_ROUNDS {}\n", shading_rounds_) +
+                           defines + shaders::kItems + shaders::kFragment + shaders::kVisibility + main;
     return gl::Program::make(name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 

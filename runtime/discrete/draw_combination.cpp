@@ -4,6 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "runtime/discrete/draw_combination_shaders.h"
+#include "runtime/discrete/draw_search_shaders.h"
 #include "runtime/discrete/draw_turn_shaders.h"
 #include "runtime/gl/surface_shaders.h"
 

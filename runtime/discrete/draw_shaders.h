@@ -168,8 +168,8 @@ void main() {
 }
 )";
 
-// A buffer of frame-sequential interpolation. KEEPS_HIDDEN: alpha says how early the place appears, 1 at once, and nothing is left
-// out.
+// A buffer of frame-sequential interpolation. KEEPS_HIDDEN: alpha says how early the place appears, 1 at once, and nothing is
+// left out.
 inline constexpr char kTurnMain[] = R"(
 layout(location = 1) out uvec2 ids;  // instance + 1, level
 void main() {

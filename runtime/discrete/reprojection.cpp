@@ -116,7 +116,9 @@ class SquareCones {
 
   private:
     static constexpr double kRounding_rad = 1e-9;
-    static double angle(const glm::dvec3& a, const glm::dvec3& b) { return 2 * std::asin(std::min(glm::distance(a, b) / 2, 1.0)); }
+    static double angle(const glm::dvec3& a, const glm::dvec3& b) {
+        return 2 * std::asin(std::min(glm::distance(a, b) / 2, 1.0));
+    }
     double focal_px_;
     glm::dvec2 middle_px_;
 };

@@ -55,8 +55,8 @@ std::vector<Placement> placements_of(std::span<const scene::Instance> instances,
                                      double time_s = 0);
 
 // Where the near plane lies, metres before the eye, so near that nothing is cut off that can be seen of chains of such a radius
-// (metres, of the chain) that stand there: 1e-5 of the least one's, half a metre at most. Depths are reversed floats, so this costs
-// no precision. placements: at least one.
+// (metres, of the chain) that stand there: 1e-5 of the least one's, half a metre at most. Depths are reversed floats, so this
+// costs no precision. placements: at least one.
 double near_plane_m(double radius_m, std::span<const Placement> placements);
 
 // Strains of levels, and who is in the frame, of one camera.

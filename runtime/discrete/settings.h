@@ -60,10 +60,10 @@ struct Remedies {
     // and weighs_by_phase only.
     bool has_long_ramps = true;
     bool suits_grain = true;  // the visibility's grain is a pixel at least, as far as the instance is
-    // Only squares of the picture in which something may be under way are put together of two frames; the others are the newer one.
-    // With has_wide_depth only.
+    // Only squares of the picture in which something may be under way are put together of two frames; the others are the newer
+    // one. With has_wide_depth only.
     bool copies_rest = true;
-    double softness = 0.5;    // >= 0; share of the ramp in which one place appears; 0: at once
+    double softness = 0.5;  // >= 0; share of the ramp in which one place appears; 0: at once
 
     bool operator==(const Remedies&) const = default;
 };

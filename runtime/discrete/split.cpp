@@ -111,8 +111,8 @@ glm::dvec3 turn_to_eye(Split& split, const Placement& placement, const glm::dvec
     return normal;
 }
 
-uint64_t append_side(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, const glm::dvec3& normal,
-                     bool is_along, std::vector<TriangleRun>& runs) {
+uint64_t append_side(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m,
+                     const glm::dvec3& normal, bool is_along, std::vector<TriangleRun>& runs) {
     uint64_t count = 0;
     size_t first_own = runs.size();
     for (const Bunch& bunch : bunches) {

@@ -19,9 +19,9 @@ struct Placement;
 
 // Neighbouring triangles of a level, in the level's order, and a box round them.
 struct Bunch {
-    glm::dvec3 middle_m{0};  // of the chain's own world
-    glm::dvec3 half_m{0};    // from there to the box's sides; infinite: parts move it
-    uint32_t draw = 0;       // of Level::draws
+    glm::dvec3 middle_m{0};                        // of the chain's own world
+    glm::dvec3 half_m{0};                          // from there to the box's sides; infinite: parts move it
+    uint32_t draw = 0;                             // of Level::draws
     uint32_t first_index = 0, triangle_count = 0;  // from the draw's own first
 };
 // At most about 4,096 of them.
@@ -39,8 +39,8 @@ struct Split {
     glm::dvec3 anchor_m{0}, normal{0};  // normal: of length 1, as it was last
 };
 
-// Such that even and odd frames draw about as many triangles. way_m: where the eye goes; the plane holds this direction as well as
-// it can, and then divides the thing in the next frame where it does in this one. None if the eye lies within 1.2 radii of the
+// Such that even and odd frames draw about as many triangles. way_m: where the eye goes; the plane holds this direction as well
+// as it can, and then divides the thing in the next frame where it does in this one. None if the eye lies within 1.2 radii of the
 // middle.
 std::optional<Split> split_of(std::span<const Bunch> finer, std::span<const Bunch> coarser, const Placement& placement,
                               const glm::dvec3& middle_m, double radius_m, const glm::dvec3& eye_m, const glm::dvec3& way_m);
@@ -49,8 +49,8 @@ std::optional<Split> split_of(std::span<const Bunch> finer, std::span<const Bunc
 glm::dvec3 turn_to_eye(Split& split, const Placement& placement, const glm::dvec3& eye_m);
 
 // Appends what may be seen on the side to which normal points (else: away from which). Returns how many triangles.
-uint64_t append_side(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, const glm::dvec3& normal,
-                     bool is_along, std::vector<TriangleRun>& runs);
+uint64_t append_side(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m,
+                     const glm::dvec3& normal, bool is_along, std::vector<TriangleRun>& runs);
 
 // (x, y, 1) of a pixel in gl_FragCoord's way times this is 0 on the plane, and above where its normal points; for a picture of so
 // many pixels and a normal to the right, up and forward.

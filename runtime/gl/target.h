@@ -26,8 +26,8 @@ class Target {
 
     // Makes what is drawn next go here: framebuffer, whole viewport, reversed depth (near 1, far 0) from zero to one.
     void bind() const;
-    // Becomes what another framebuffer of the same size and samples shows in its first colour and its depth, which are of the same
-    // formats: GL_RGBA8 and GL_DEPTH_COMPONENT32F.
+    // Becomes what another framebuffer of the same size and samples shows in its first colour and its depth, which are of the
+    // same formats: GL_RGBA8 and GL_DEPTH_COMPONENT32F.
     void copy_from(GLuint framebuffer) const;
     // Averages the samples of a pixel into the picture that read() and show() take. To be called after drawing.
     void resolve() const;

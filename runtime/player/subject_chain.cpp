@@ -59,7 +59,8 @@ class ChainSubject : public Subject {
     }
     double near_m() const override {
         double near_m = std::numeric_limits<double>::infinity();
-        for (const Stood& each : chains_) near_m = std::min(near_m, discrete::near_plane_m(each.chain->radius_m, each.placements));
+        for (const Stood& each : chains_)
+            near_m = std::min(near_m, discrete::near_plane_m(each.chain->radius_m, each.placements));
         return near_m;
     }
     Thing thing() const override { return Thing::chain; }

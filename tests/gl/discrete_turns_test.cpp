@@ -191,8 +191,7 @@ TEST(Turns, RemediesEachChangeThePicture) {
     }
 }
 
-// A thing that is divided between even and odd frames looks like one that is not: the same to the last bit while the eye rests,
-// and no more than a few pixels apart, by little, while it goes past.
+// Divided between even and odd frames or not: the same to the last bit while the eye rests.
 TEST(Turns, DivideABigThingUnseen) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     for (const Chain& chain : {made::simple_chain(), made::coplanar_chain(), made::sphere_chain(24, 2)}) {

@@ -53,14 +53,14 @@ struct World {
     std::unique_ptr<terrain::Terrain> terrain;
     std::optional<terrain::Refiner> refiner;
     std::optional<terrain::Drawing> drawing;
-    terrain::DrawOptions look;        // the same for every method and the reference
-    std::optional<MeshWorld> mesh;    // then there is no terrain
-    std::vector<ChainWorld> chains;   // if there are any there is neither
-    uint64_t resident_bytes = 0;      // on the card without what changes from frame to frame
-    scene::Transform transform;       // from the thing's own frame into the scene's; of chains, whose placements hold it, none
-    view::Camera base;                // what a flight does not say: near plane, field of view
-    double step_s = 1.0 / 60;         // of the logical clock, from frame to frame
-    double time_s = 0;                // of that clock, of the frame that is drawn; set by go_to()
+    terrain::DrawOptions look;       // the same for every method and the reference
+    std::optional<MeshWorld> mesh;   // then there is no terrain
+    std::vector<ChainWorld> chains;  // if there are any there is neither
+    uint64_t resident_bytes = 0;     // on the card without what changes from frame to frame
+    scene::Transform transform;      // from the thing's own frame into the scene's; of chains, whose placements hold it, none
+    view::Camera base;               // what a flight does not say: near plane, field of view
+    double step_s = 1.0 / 60;        // of the logical clock, from frame to frame
+    double time_s = 0;               // of that clock, of the frame that is drawn: set by go_to()
 
     bool is_mesh() const { return mesh.has_value(); }
     bool is_chain() const { return !chains.empty(); }
@@ -74,8 +74,8 @@ struct World {
 // A chain that stands where instances say, or once if there are none; and all of it moved by `whole`.
 ChainWorld chain_world(discrete::Chain chain, std::span<const scene::Instance> instances, const scene::Transform& whole = {});
 
-// Reads a scene (.json) of one terrain, one mesh or any number of chains, or a baked file of one by itself (.ovl). Needs no OpenGL. Fails with Exit::bad_input, as
-// scene::read_scene, terrain::read, caveclod::read and discrete::read, and
+// Reads a scene (.json) of one terrain, one mesh or any number of chains, or a baked file of one by itself (.ovl). Needs no
+// OpenGL. Fails with Exit::bad_input, as scene::read_scene, terrain::read, caveclod::read and discrete::read, and
 //   "a.scene.json: /layers/0/instances: duck.ovl is no chain of levels"
 // and with Exit::impossible:
 //   "a.scene.json: /layers/1: duck.ovl is no chain of levels, and there are 2 layers; measure draws scenes of one terrain, one

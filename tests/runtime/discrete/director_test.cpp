@@ -189,39 +189,6 @@ TEST(Director, SharesTheWorkEvenlyBetweenFrames) {
     }
 }
 
-// One big thing alone: what changes is divided, so that both frames take half of each level.
-TEST(Director, DividesABigThingBetweenFrames) {
-    std::vector<Placement> one(1);
-    for (glm::dvec3 way_m : {glm::dvec3(0, 0.1, 0), glm::dvec3(0.05, 0.09, 0.01), glm::dvec3(-0.03, 0.08, 0.04)}) {
-        for (bool divides : {true, false}) {
-            FrameOptions options = defaults_of(Variant::fsi);
-            options.remedies.splits_things = divides;
-            options.select.error_px = 0.1;
-            Director director(facts_of(made::sphere_chain(64)), one, options);
-            double worst = 0;
-            uint64_t before = 0, compared = 0;
-            for (int frame = 0; frame < 700; ++frame) {
-                view::Camera camera = camera_at(90);
-                camera.position_m += double(frame) * way_m;
-                camera.heading_deg = -std::atan2(camera.position_m.x, -camera.position_m.y) * 180 / 3.14159265358979;
-                director.decide(camera, kStep_s);
-                bool changes = !director.frame().fading.empty();
-                uint64_t now = changes ? director.frame().triangle_count : 0;
-                if (before > 0 && now > 0) {
-                    worst = std::max(worst, std::abs(double(now) - double(before)) / double(std::max(now, before)));
-                    ++compared;
-                }
-                before = now;
-            }
-            EXPECT_GT(compared, 12u);
-            if (divides)
-                EXPECT_LE(worst, 0.02) << way_m.x;
-            else
-                EXPECT_GT(worst, 0.5);
-        }
-    }
-}
-
 // One level a frame: at 5 m/s towards the field and back, hardly more triangles than levels that give way at once.
 TEST(Director, DrawsNoMoreTrianglesThanHardSwitching) {
     std::vector<Placement> placements = field(12);

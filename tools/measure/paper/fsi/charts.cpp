@@ -29,9 +29,10 @@ std::string line_of(const std::string& scene, const std::string& chain, std::str
 
 // chains: by their names; the first one's lines are whole, others dashed.
 Chart times(const Flown& flown, const std::string& scene, const std::string& end, const std::vector<std::string>& chains) {
-    Chart chart{"figure-8-" + scene + (end.empty() ? "" : "-" + end),
-                "Figure 8, " + title_of(scene) + (end.empty() ? "" : ", " + chains[0]) + ": frame time against the viewport's side",
-                chart_head(8)};
+    Chart chart{
+        "figure-8-" + scene + (end.empty() ? "" : "-" + end),
+        "Figure 8, " + title_of(scene) + (end.empty() ? "" : ", " + chains[0]) + ": frame time against the viewport's side",
+        chart_head(8)};
     chart.script += x_label("pixels a side") +
                     "set datafile missing NaN\nset xrange [0:*]\nset yrange [0:*]\nset ylabel 'ms a frame, median'\nplot ";
     std::string lines;

@@ -204,7 +204,8 @@ Seen seen_of(const Film& film, const Take& take) {
 std::string films_csv(const std::vector<Film>& films) {
     std::string csv =
         "scene,chain,method,from_level,to_level,distance_m,instances,entering_w_1000,leaving_w_1000,greatest_w_1000,"
-        "integrated_w_1000,median_w_1000,entering_pop,leaving_pop,pop,end_ratio,greatest_ratio,triangles,odd_even_share,buffer_bytes\n";
+        "integrated_w_1000,median_w_1000,entering_pop,leaving_pop,pop,end_ratio,greatest_ratio,triangles,odd_even_share,buffer_"
+        "bytes\n";
     for (const Film& film : films)
         for (const Take& take : film.takes) {
             Seen s = seen_of(film, take);

@@ -75,10 +75,10 @@ struct Seen {
     // W as it is over its median in the time of a change that fades (its first frame to the first after it, of every way): the
     // worse of the change's first frame and of the first after its last, and of all of them.
     double end_ratio = 1, greatest_ratio = 1;
-    double entering_pop = 1, leaving_pop = 1, pop = 1;     // pop index of the first two frames, of the last two, of the film
-    double triangles = 0;                                  // a frame of the change, in the mean
-    double odd_even = 0;                                   // greatest difference of consecutive frames in the change, share
-    double buffer_bytes = 0;                               // beside what `switch` keeps
+    double entering_pop = 1, leaving_pop = 1, pop = 1;  // pop index of the first two frames, of the last two, of the film
+    double triangles = 0;                               // a frame of the change, in the mean
+    double odd_even = 0;                                // greatest difference of consecutive frames in the change, share
+    double buffer_bytes = 0;                            // beside what `switch` keeps
 };
 Seen seen_of(const Film& film, const Take& take);
 

@@ -37,7 +37,9 @@ std::string figure_8_html(const FsiPage& page) {
     std::string html = "<h2>Figure 8: frame time against viewport size</h2>\n";
     for (const Chart& chart : page.charts) {
         if (!page.has_charts || chart.name.rfind("figure-8", 0) != 0) continue;
-        html += chart_html(chart.name, chart.title, "The same levels at every size. Dashes: levels made by hand. Heavy shader: many lights more for each pixel.");
+        html += chart_html(
+            chart.name, chart.title,
+            "The same levels at every size. Dashes: levels made by hand. Heavy shader: many lights more for each pixel.");
     }
     html += std::string(kTable) +
             table_row({"", "method", "pixels a side", "ms p50", "ms max", "triangles", "times switch", "draw calls", "changing",
@@ -60,17 +62,18 @@ std::string film_html(const Film& film) {
     std::string html =
         fmt::format("<h3>{}</h3>\n", escaped(title_of(film.name) + (film.chain.empty() ? "" : ", levels " + film.chain))) +
         kTable +
-        table_row({"", "W entering", "W leaving", "W greatest", "W of the change", "median W", "ends, times median", "greatest, times median", "pop entering", "pop leaving",
-                   "pop index", "triangles", "frame to frame, %", "buffers"},
-                  "th") +
+        table_row(
+            {"", "W entering", "W leaving", "W greatest", "W of the change", "median W", "ends, times median",
+             "greatest, times median", "pop entering", "pop leaving", "pop index", "triangles", "frame to frame, %", "buffers"},
+            "th") +
         "</thead>\n<tbody>\n";
     for (const Take& take : film.takes) {
         Seen seen = seen_of(film, take);
         html += table_row({escaped(take.name), short_number(seen.entering_w), short_number(seen.leaving_w),
                            short_number(seen.greatest_w), short_number(seen.integrated_w), short_number(seen.median_w),
-                           short_number(seen.end_ratio), short_number(seen.greatest_ratio),
-                           short_number(seen.entering_pop), short_number(seen.leaving_pop), short_number(seen.pop),
-                           short_count(seen.triangles), short_number(100 * seen.odd_even), short_bytes(seen.buffer_bytes)},
+                           short_number(seen.end_ratio), short_number(seen.greatest_ratio), short_number(seen.entering_pop),
+                           short_number(seen.leaving_pop), short_number(seen.pop), short_count(seen.triangles),
+                           short_number(100 * seen.odd_even), short_bytes(seen.buffer_bytes)},
                           "td");
     }
     return html + kTableEnd +
@@ -85,8 +88,10 @@ std::string films_html(const Flown& flown) {
         "x 4 "
         "supersampled, does not have, over what full geometry at the method's samples has, in thousandths; of the change: summed "
         "over "
-        "its frames. Times median: W as it is in the frame in which the change begins or the first after it, and in any frame of it, over its "
-        "median from the one to the other. Pop index: of the worst tile of the two frames in which the change begins and ends, and of the whole film, by the floor.</p>\n";
+        "its frames. Times median: W as it is in the frame in which the change begins or the first after it, and in any frame of "
+        "it, over its "
+        "median from the one to the other. Pop index: of the worst tile of the two frames in which the change begins and ends, "
+        "and of the whole film, by the floor.</p>\n";
     for (const Film& film : flown.films) html += film_html(film);
     return html + "<p class=\"note\"><a href=\"films.csv\">films.csv</a></p>\n";
 }
@@ -131,16 +136,15 @@ std::string optimised_html(const Flown& flown) {
 
 std::string combining_html(const Flown& flown) {
     std::string html = "<h2>Putting two frames together</h2>\n" + std::string(kTable) +
-                       table_row({"", "method", "at rest, ms", "while all change, ms", "pixels put together, %", "a pass that copies, ms",
-                                  "a copy in memory, ms", "times the pass"},
+                       table_row({"", "method", "at rest, ms", "while all change, ms", "pixels put together, %",
+                                  "a pass that copies, ms", "a copy in memory, ms", "times the pass"},
                                  "th") +
                        "</thead>\n<tbody>\n";
     for (const Combining& one : flown.combining)
-        html += table_row(
-            {escaped(title_of(one.scene)), escaped(one.method), short_number(one.rest_ms), short_number(one.changing_ms),
-             short_number(100 * one.changing_share), short_number(one.pass_ms), short_number(one.copy_ms),
-             short_number(one.changing_ms / one.pass_ms)},
-            "td");
+        html += table_row({escaped(title_of(one.scene)), escaped(one.method), short_number(one.rest_ms),
+                           short_number(one.changing_ms), short_number(100 * one.changing_share), short_number(one.pass_ms),
+                           short_number(one.copy_ms), short_number(one.changing_ms / one.pass_ms)},
+                          "td");
     return html + kTableEnd +
            "<p class=\"note\">512 x 512, one sample a pixel, medians of 15. The pass that copies reads colour, ids and depth of "
            "both "

@@ -70,7 +70,8 @@ Target end_ratio(const Flown& flown) {
 
 Target greatest_ratio(const Flown& flown) {
     auto of = [](const Film& film, const Take& take) { return Value(seen_of(film, take).greatest_ratio); };
-    Target is{"greatest W from the first frame of a transition to the first after it, times the same", "-", 1.15, false, {}, "", ""};
+    Target is{
+        "greatest W from the first frame of a transition to the first after it, times the same", "-", 1.15, false, {}, "", ""};
     is = of_films(flown, is, of);
     if (!is.is_reached(1)) is.why = "the change is not as fast in all frames; of each film: " + each(flown, of);
     return is;
