@@ -104,6 +104,12 @@ bool can_dead_end(const TileSet& set) {
                 return true;
         return false;
     };
+    // In the first row and the first column there is one neighbour only.
+    for (size_t t = 0; t < set.tiles.size(); ++t) {
+        Mask east = fits.of_west[set.tiles[t].east], north = fits.of_south[set.tiles[t].north];
+        east.reset(t), north.reset(t);
+        if (east.none() || north.none()) return true;
+    }
     for (size_t west = 0; west < set.tiles.size(); ++west)
         for (size_t south = 0; south < set.tiles.size(); ++south) {
             Mask mask = fits.of_west[set.tiles[west].east] & fits.of_south[set.tiles[south].north];

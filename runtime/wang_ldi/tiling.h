@@ -46,8 +46,8 @@ struct TilingOptions {
 // set fits at column 3, row 7".
 Result<Tiling> tile_row_by_row(const TileSet& set, uint32_t columns, uint32_t rows, const TilingOptions& options);
 
-// Whether some pair of tiles to the west and to the south, that meet at a third, leaves no tile that fits both and equals
-// neither.
+// Whether some tile has no other to its east or to its north, or some pair of tiles to the west and to the south, that meet at a
+// third, leaves no tile that fits both and equals neither.
 bool can_dead_end(const TileSet& set);
 
 // Pairs of neighbours whose edges or corners disagree, and that are equal.

@@ -54,17 +54,14 @@ void count_borders(const TileSet& set, const Planting& planting, Figures& figure
 Result<UsedTiling> used_tiling(const TileSet& set, const SetOptions& options, uint32_t side, uint64_t seed) {
     if (options.kind == SetKind::robinson) return UsedTiling{robinson_tiling(set, side, side, seed), false};
     TilingOptions tiling_options;
-    tiling_options.seed = seed;
+    tiling_options.seed = seed, tiling_options.avoids_equal_neighbours = !can_dead_end(set);
     if (options.has_borders) {
         auto bare = uint8_t(set.corner_density.size() - 1);
         tiling_options.corner_at = [seed, bare](int64_t x, int64_t y) { return uint8_t(below(hash_of(seed, 0x63, x, y), bare)); };
     }
     auto tiling = tile_row_by_row(set, side, side, tiling_options);
-    if (tiling) return UsedTiling{std::move(*tiling), true};
-    tiling_options.avoids_equal_neighbours = false;
-    tiling = tile_row_by_row(set, side, side, tiling_options);
     if (!tiling) return tl::unexpected(tiling.error());
-    return UsedTiling{std::move(*tiling), false};
+    return UsedTiling{std::move(*tiling), tiling_options.avoids_equal_neighbours};
 }
 
 Result<Figures> measure_ground(const TileSet& set, const Planting& planting, const Recipe& recipe, bool with_spectra) {

@@ -12,8 +12,8 @@
 
 namespace overlook::wang_ldi {
 
-// A set's tiling as it is meant to be used: Robinson's by its formula, others row by row, without equal neighbours where the set
-// allows that, within the planting where the set has borders.
+// A set's tiling as it is meant to be used: Robinson's by its formula, others row by row, without equal neighbours where that
+// never dead-ends (the eight: as the paper), within the planting where the set has borders.
 struct UsedTiling {
     Tiling tiling;
     bool avoids_equal_neighbours = false;

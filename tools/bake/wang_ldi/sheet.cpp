@@ -182,7 +182,7 @@ Result<Tiling> sheet_tiling(const TileSet& set, uint64_t seed) {
     if (std::count(set.corner_density.begin(), set.corner_density.end(), 0.0f) > 0)
         options.corner_at = corners_of_density(
             set,
-            [](int64_t x, int64_t y) { return std::clamp(0.7 + std::sin(double(x) / 9) + std::cos(double(y) / 7), 0.0, 1.0); },
+            [](int64_t x, int64_t y) { return std::clamp(0.5 + std::sin(double(x) / 3) * std::cos(double(y) / 4), 0.0, 1.0); },
             seed);
     for (bool avoids : {true, false}) {
         options.avoids_equal_neighbours = avoids;
