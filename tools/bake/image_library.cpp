@@ -219,27 +219,30 @@ Result<ImageRgb8> read_rgb8(const PictureFile& file) {
     return picture;
 }
 
+// An image from memory, which must outlive it; failing that, its reader holds the reason.
+bool open_memory(const PictureFile& file, OIIO::Filesystem::IOMemReader& memory, OpenImage& image) {
+    image.path = file.path;
+    image.input = ImageInput::create(file.reader);
+    OIIO::geterror();
+    ImageSpec as_stored;
+    as_stored.attribute("oiio:UnassociatedAlpha", 1);
+    return image.input && image.input->set_ioproxy(&memory) && image.input->open(file.path, image.spec, as_stored) &&
+           image.spec.width > 0 && image.spec.height > 0;
+}
+
 Result<PictureRgba8> read_rgba8(const PictureFile& file, std::span<const std::byte> bytes) {
     constexpr uint64_t kMostPixels = uint64_t(1) << 26;
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
     OpenImage image;
-    image.path = file.path;
-    image.input = ImageInput::create(file.reader);
-    OIIO::geterror();
-    if (!image.input || !image.input->set_ioproxy(&memory)) return bad_input("{}: is no picture that is read from memory", file.path);
-    ImageSpec as_stored;
-    as_stored.attribute("oiio:UnassociatedAlpha", 1);
-    if (!image.input->open(file.path, image.spec, as_stored)) return image.failure();
-    const ImageSpec& spec = image.spec;
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
-        return bad_input("{}: its size is {} x {} with {} channels", file.path, spec.width, spec.height, spec.nchannels);
-    uint64_t count = uint64_t(spec.width) * uint64_t(spec.height);
-    if (count > kMostPixels || spec.nchannels > 16)
-        return bad_input("{}: has {} x {} pixels, at most {} in all are read", file.path, spec.width, spec.height, kMostPixels);
-    auto channels = size_t(spec.nchannels);
+    if (!open_memory(file, memory, image))
+        return bad_input("{}: cannot be decoded: {}", file.path, gist(image.input ? image.input->geterror() : ""));
+    auto width = uint32_t(image.spec.width), height = uint32_t(image.spec.height);
+    uint64_t count = uint64_t(width) * height, channels = uint64_t(std::max(image.spec.nchannels, 1));
+    if (count > kMostPixels || channels > 16)
+        return bad_input("{}: has {} x {} pixels, at most {} in all are read", file.path, width, height, kMostPixels);
     std::vector<uint8_t> stored(count * channels);
-    if (!image.input->read_image(0, 0, 0, spec.nchannels, TypeDesc::UINT8, stored.data())) return image.failure();
-    PictureRgba8 picture{uint32_t(spec.width), uint32_t(spec.height), std::vector<uint8_t>(4 * count)};
+    if (!image.input->read_image(0, 0, 0, int(channels), TypeDesc::UINT8, stored.data())) return image.failure();
+    PictureRgba8 picture{width, height, std::vector<uint8_t>(4 * count)};
     for (uint64_t i = 0; i < count; ++i) {
         const uint8_t* from = stored.data() + i * channels;
         for (size_t c = 0; c < 3; ++c) picture.pixels[4 * i + c] = from[channels >= 3 ? c : 0];
