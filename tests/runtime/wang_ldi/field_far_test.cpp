@@ -2,41 +2,15 @@
 // kept.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <map>
 #include <random>
 
 #include "runtime/wang_ldi/field.h"
-#include "tests/allocations.h"
 #include "tests/runtime/wang_ldi/field_ground.h"
 #include "tests/runtime/wang_ldi/field_parts.h"
 
 namespace overlook::wang_ldi {
 namespace {
-
-const terrain::Terrain& hills() {
-    static const terrain::Terrain terrain = terrain_of(121, 90, 10, 12, hill_m);
-    return terrain;
-}
-FieldList list_of(const Field& field, const view::Camera& camera) {
-    FieldList list;
-    field.list(camera, list);
-    return list;
-}
-// Of whole numbers only, which rounding elsewhere in the last place leaves as they are.
-uint64_t digest(const FieldList& list) {
-    uint64_t hash = 0;
-    auto add = [&](uint64_t value) { hash = mixed(hash + 0x9e3779b97f4a7c15u) ^ mixed(value); };
-    for (const Item& item : list.items) {
-        add(uint64_t(item.i)), add(uint64_t(item.j)), add(item.tiles_log2), add(item.tile), add(item.texels_px);
-        for (const Shown& shown : list.shown_of(item))
-            add(shown.rung), add(shown.direction), add(shown.by_rung.from), add(shown.by_rung.to), add(shown.by_direction.from),
-                add(shown.by_direction.to);
-        for (const Half& half : list.halves_of(item))
-            add(half.column), add(half.row), add(half.half), add(uint64_t(half.diagonal));
-    }
-    return hash;
-}
 
 TEST(FarField, AThousandTilesCostNoMoreThanTwiceForty) {
     TestField test{Ground::plain()};
@@ -240,43 +214,6 @@ TEST(FarField, OutsideOfTheCellIsSaid) {
     }
     EXPECT_GT(with_images, 50u);
     EXPECT_EQ(risen.counts.outside_cell, with_images);
-}
-
-TEST(FarField, AWalkOf100KilometresKeepsNothing) {
-    TestField test{Ground::plain()};
-    Field field = test.field(test.to_horizon(3));
-    FieldList list;
-    auto camera_at = [](int step) {
-        return head_camera({-50000.0 + 100 * step, 31 * std::sin(step * 0.1), 1.7}, 90 + 3 * std::sin(step * 0.7), -8);
-    };
-    uint64_t before = 0;
-    size_t most_items = 0;
-    list.items.reserve(20000), list.shown.reserve(80000), list.halves.reserve(80000);
-    for (int step = 0; step <= 1000; ++step) {
-        if (step == 1) before = test::allocation_count();
-        field.list(camera_at(step), list);
-        most_items = std::max(most_items, list.items.size());
-    }
-    EXPECT_EQ(test::allocation_count(), before);
-    EXPECT_LT(most_items, 20000u);
-    TestField fresh{Ground::plain()};
-    EXPECT_EQ(digest(list_of(fresh.field(fresh.to_horizon(3)), camera_at(1000))), digest(list));
-    // The same tiles stand where they stood, from wherever they are seen.
-    FieldList back = list_of(field, head_camera({50002.5, 31 * std::sin(100.0), 1.7}, 270, -8));
-    for (const Item& item : back.items)
-        if (item.tiles_log2 == 0) {
-            ASSERT_EQ(item.tile, test.tiling->at(item.i, item.j));
-        }
-}
-
-TEST(FarField, IsTheSameListOnAnyMachine) {
-    PlacementOptions planting;
-    planting.highest_m = 155;
-    TestField test(Ground(hills()), planting, 2);
-    Field field = test.field(test.to_horizon(3));
-    FieldList list = list_of(field, head_camera({600, -500, test.ground.height_m({600, -500}) + 1.7}, 77));
-    EXPECT_GT(list.items.size(), 300u);
-    EXPECT_EQ(digest(list), 13550488752541683923u);
 }
 
 }  // namespace

@@ -28,4 +28,9 @@ inline double hill_m(double column, double row) {
     return 130 + 40 * std::sin(column * 0.05) * std::cos(row * 0.04) + 4 * std::sin(column * 0.31 + 1) * std::sin(row * 0.27);
 }
 
+inline const terrain::Terrain& hills() {
+    static const terrain::Terrain terrain = terrain_of(121, 90, 10, 12, hill_m);
+    return terrain;
+}
+
 }  // namespace overlook::wang_ldi

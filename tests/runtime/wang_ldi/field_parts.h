@@ -71,4 +71,10 @@ struct TestField {
     FieldOptions to_horizon(double geometry_to_m = 0) const { return options_to_horizon(images, 415.7, geometry_to_m); }
 };
 
+inline FieldList list_of(const Field& field, const view::Camera& camera) {
+    FieldList list;
+    field.list(camera, list);
+    return list;
+}
+
 }  // namespace overlook::wang_ldi

@@ -15,10 +15,6 @@ namespace {
 
 using Place = std::pair<int64_t, int64_t>;
 
-const terrain::Terrain& hills() {
-    static const terrain::Terrain terrain = terrain_of(121, 90, 10, 12, hill_m);
-    return terrain;
-}
 // Cameras over, between and under the hills, that look anywhere.
 view::Camera random_camera(const Ground& ground, std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);

@@ -10,7 +10,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-const terrain::Terrain& hills() {
+const terrain::Terrain& rough_hills() {
     static const terrain::Terrain terrain = terrain_of(
         121, 90, 10, 12, [](uint32_t column, uint32_t row) { return hill_m(column, row) + (column * 7 + row * 5) % 4; });
     return terrain;
@@ -32,20 +32,20 @@ void visit_places(const Rect& rect, int side, const Visit& visit) {
 }
 
 TEST(Ground, HasTheHeightsOfItsSamplesAndBetweenThemOfTheirTriangles) {
-    Ground ground(hills());
+    Ground ground(rough_hills());
     for (uint32_t row = 0; row < 90; ++row)
         for (uint32_t column = 0; column < 121; ++column)
-            EXPECT_DOUBLE_EQ(ground.height_m({column * 10.0, row * -12.0}), hills().height_m(column, row));
+            EXPECT_DOUBLE_EQ(ground.height_m({column * 10.0, row * -12.0}), rough_hills().height_m(column, row));
     // Middles of cells lie on the diagonal, which joins samples whose column + row is even.
-    EXPECT_NEAR(ground.height_m({45, -42}), (hills().height_m(4, 4) + hills().height_m(5, 3)) / 2, 1e-9);
-    EXPECT_NEAR(ground.height_m({45, -54}), (hills().height_m(4, 4) + hills().height_m(5, 5)) / 2, 1e-9);
+    EXPECT_NEAR(ground.height_m({45, -42}), (rough_hills().height_m(4, 4) + rough_hills().height_m(5, 3)) / 2, 1e-9);
+    EXPECT_NEAR(ground.height_m({45, -54}), (rough_hills().height_m(4, 4) + rough_hills().height_m(5, 5)) / 2, 1e-9);
     // Thirds of a triangle.
-    double corner = hills().height_m(5, 4), top = hills().height_m(4, 4), right = hills().height_m(5, 5);
+    double corner = rough_hills().height_m(5, 4), top = rough_hills().height_m(4, 4), right = rough_hills().height_m(5, 5);
     EXPECT_NEAR(ground.height_m({40 + 20.0 / 3, -48 - 4.0}), (corner + top + right) / 3, 1e-9);
 }
 
 TEST(Ground, RangeIsTheLeastThatHoldsEveryPlace) {
-    Ground ground(hills());
+    Ground ground(rough_hills());
     std::mt19937 random(3);
     for (int i = 0; i < 400; ++i) {
         Rect rect = random_rect(ground, random, 0.5, 200);
@@ -89,7 +89,7 @@ TEST(Ground, OfASlantingPlaneTheSteepestIsItsRise) {
 }
 
 TEST(Ground, DisplacementIsTheGreatestDistanceOfGroundAndHalves) {
-    Ground ground(hills());
+    Ground ground(rough_hills());
     std::mt19937 random(4);
     double greatest = 0;
     for (int i = 0; i < 300; ++i) {
@@ -112,7 +112,7 @@ TEST(Ground, DisplacementIsTheGreatestDistanceOfGroundAndHalves) {
 }
 
 TEST(Ground, HalvesMeetAtTheDiagonalAndNeighboursAtTheirSides) {
-    Ground ground(hills());
+    Ground ground(rough_hills());
     for (Diagonal diagonal : {Diagonal::rising, Diagonal::falling}) {
         Rect rect{{333, -444}, {347, -430}}, east{{347, -444}, {361, -430}};
         Sheared here = ground.sheared(rect, diagonal), there = ground.sheared(east);

@@ -10,7 +10,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-const Ground& hills() {
+const Ground& holed_hills() {
     static const terrain::Terrain terrain = terrain_of(
         101, 101, 10, 10, [](uint32_t column, uint32_t row) { return column == 60 && row == 40 ? NAN : hill_m(column, row); });
     static const Ground ground(terrain);
@@ -44,7 +44,7 @@ TileSet set_with_bare_corners() {
 TEST(Placement, EveryPlaceOfAPlantedTileKeepsTheRules) {
     PlacementOptions options;
     options.lowest_m = 105, options.highest_m = 140, options.steepest = 0.22;
-    Placement placement = placement_of(hills(), 7, options);
+    Placement placement = placement_of(holed_hills(), 7, options);
     std::array<int, kVerdicts> seen{};
     for (int64_t j = -145; j < 5; ++j)
         for (int64_t i = -5; i < 145; ++i) {
@@ -52,19 +52,19 @@ TEST(Placement, EveryPlaceOfAPlantedTileKeepsTheRules) {
             ++seen[size_t(verdict)];
             Rect rect = placement.rect_of(i, j);
             double low = INFINITY, high = -INFINITY;
-            bool is_there = hills().extent().contains(rect);
+            bool is_there = holed_hills().extent().contains(rect);
             for (int place = 0; place < 64 && is_there; ++place) {
-                double height = hills().height_m(rect.low_m + glm::dvec2(place % 8, place / 8));
+                double height = holed_hills().height_m(rect.low_m + glm::dvec2(place % 8, place / 8));
                 low = std::min(low, height), high = std::max(high, height), is_there = !std::isnan(height);
             }
             if (verdict == Verdict::planted) {
                 ASSERT_TRUE(is_there && low >= 105 && high <= 140);
-                ASSERT_LE(hills().range(rect).steepest, 0.22);
+                ASSERT_LE(holed_hills().range(rect).steepest, 0.22);
             } else if (is_there && verdict != Verdict::no_ground) {  // the rule that is told is broken somewhere in it
-                double slack = 7.0 / 7 * hills().range(rect).steepest;
+                double slack = 7.0 / 7 * holed_hills().range(rect).steepest;
                 ASSERT_TRUE(verdict != Verdict::too_low || low < 105 + slack);
                 ASSERT_TRUE(verdict != Verdict::too_high || high > 140 - slack);
-                ASSERT_TRUE(verdict != Verdict::too_steep || hills().range(rect).steepest > 0.22);
+                ASSERT_TRUE(verdict != Verdict::too_steep || holed_hills().range(rect).steepest > 0.22);
             }
         }
     for (Verdict verdict : {Verdict::planted, Verdict::no_ground, Verdict::too_low, Verdict::too_high, Verdict::too_steep})
@@ -72,7 +72,7 @@ TEST(Placement, EveryPlaceOfAPlantedTileKeepsTheRules) {
 }
 
 TEST(Placement, FollowsAPaintedMask) {
-    Ground ground = hills();
+    Ground ground = holed_hills();
     PlacementOptions options;
     options.steepest = INFINITY;
     options.mask = picture_of(100, 50, [](uint32_t column, uint32_t row) { return column < 30 && row >= 25 ? 1.0 : 0.0; });
@@ -92,7 +92,7 @@ TEST(Placement, WhatIsSaidOfARectangleHoldsOfEveryTileInIt) {
     PlacementOptions options;
     options.lowest_m = 100, options.highest_m = 150, options.steepest = 0.3;
     options.mask = picture_of(64, 64, [](uint32_t column, uint32_t row) { return (column / 16 + row / 16) % 3 ? 1.0 : 0.0; });
-    Placement placement = placement_of(hills(), 5, options);
+    Placement placement = placement_of(holed_hills(), 5, options);
     std::mt19937 random(8);
     std::array<int, 3> seen{};
     for (int n = 0; n < 2000; ++n) {
@@ -109,7 +109,7 @@ TEST(Placement, WhatIsSaidOfARectangleHoldsOfEveryTileInIt) {
 TEST(Placement, AtItsEdgeAreTilesWithAnUnplantedNeighbour) {
     PlacementOptions options;
     options.highest_m = 135;
-    Placement placement = placement_of(hills(), 6, options);
+    Placement placement = placement_of(holed_hills(), 6, options);
     int edges = 0, inner = 0;
     for (int64_t j = -150; j < -20; ++j)
         for (int64_t i = 10; i < 150; ++i) {
@@ -128,7 +128,7 @@ TEST(Placement, FairedEdgesEndWithBareCorners) {
     TileSet set = set_with_bare_corners();
     PlacementOptions options;
     options.highest_m = 135;
-    Placement placement = placement_of(hills(), 6, options);
+    Placement placement = placement_of(holed_hills(), 6, options);
     auto tiling = RandomTiling::of(set, 5, placement.corners(set, 5));
     ASSERT_TRUE(tiling) << tiling.error().message;
     int whole = 0, partial = 0, bare = 0;
@@ -153,7 +153,7 @@ TEST(Placement, FairedEdgesEndWithBareCorners) {
 }
 
 TEST(Placement, DensityFallsToNothingOverTheTilesAskedFor) {
-    Ground ground = hills();
+    Ground ground = holed_hills();
     PlacementOptions options;
     options.steepest = INFINITY, options.fairing_tiles = 4;
     options.mask = picture_of(100, 50, [](uint32_t column, uint32_t) { return column < 30 ? 1.0 : 0.0; });
@@ -169,7 +169,7 @@ TEST(Placement, CornersAreAsOftenPlantedAsTheDensityMapSays) {
     PlacementOptions options;
     options.steepest = INFINITY, options.fairing_tiles = 0;
     options.density = picture_of(40, 40, [](uint32_t column, uint32_t) { return column < 20 ? 0.25 : 0.75; });
-    Placement placement = placement_of(hills(), 2, options);
+    Placement placement = placement_of(holed_hills(), 2, options);
     CornerAt corner_at = placement.corners(set, 77);
     double west = 0, east = 0;
     for (int64_t j = -400; j < -200; ++j)
@@ -181,17 +181,17 @@ TEST(Placement, CornersAreAsOftenPlantedAsTheDensityMapSays) {
 TEST(Placement, RefusesRulesThatMakeNoSense) {
     PlacementOptions options;
     options.lowest_m = 500, options.highest_m = 200;
-    auto refused = Placement::of(hills(), 2, options);
+    auto refused = Placement::of(holed_hills(), 2, options);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().exit, Exit::bad_command);
     EXPECT_EQ(refused.error().message, "planting from 500 m up to 200 m: no height lies between");
     options = {}, options.steepest = NAN;
-    EXPECT_FALSE(Placement::of(hills(), 2, options));
+    EXPECT_FALSE(Placement::of(holed_hills(), 2, options));
     options = {}, options.fairing_tiles = 9;
-    EXPECT_FALSE(Placement::of(hills(), 2, options));
+    EXPECT_FALSE(Placement::of(holed_hills(), 2, options));
     options = {}, options.mask.width = options.mask.height = 3;
-    EXPECT_FALSE(Placement::of(hills(), 2, options));
-    EXPECT_FALSE(Placement::of(hills(), 0, {}));
+    EXPECT_FALSE(Placement::of(holed_hills(), 2, options));
+    EXPECT_FALSE(Placement::of(holed_hills(), 0, {}));
 }
 
 }  // namespace
