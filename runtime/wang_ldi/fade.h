@@ -36,8 +36,8 @@ struct LadderOptions {
     double texture_from_m = std::numeric_limits<double>::infinity();
     double colour_from_m = std::numeric_limits<double>::infinity();  // at least texture_from_m
     double radius_m = std::numeric_limits<double>::infinity();       // nothing is drawn beyond
-    double fade_share =
-        0.1;  // of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other
+    // Of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other.
+    double fade_share = 0.05;
 };
 // The levels of the set that lie between, their distances as the set has them. Rungs that would have no room are left out.
 Ladder ladder_of(const ImageSet& set, const LadderOptions& options);
