@@ -1,0 +1,85 @@
+// By which means a place is drawn from how far and from which side, and how one gives way to the next without a pop: both are
+// drawn within a band, and a hash of each place decides for one of them, so that together they are whole.
+//
+// Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, sections 4 (rings and wedges, figure 7) and
+// 8 (blending, directional textures).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+#include "formats/wang_ldi.h"
+#include "runtime/wang_ldi/random.h"
+
+namespace overlook::wang_ldi {
+
+// From near to far. texture: a picture of the tile as it looks from one side; colour: its mean; bare: nothing.
+enum class Stage : uint8_t { geometry, ldi, texture, colour, bare };
+
+struct Rung {
+    Stage stage = Stage::ldi;
+    uint32_t level = 0;  // of images; 0 for other stages
+    double from_m = 0;   // up to the next rung's
+    // Within these the rung before gives way to this one; from_m in their middle, or all three the same.
+    double fade_from_m = 0, fade_to_m = 0;
+};
+
+// Rungs by ascending distance, the first from 0 on. No two bands overlap.
+struct Ladder {
+    std::vector<Rung> rungs;
+};
+
+struct LadderOptions {
+    double geometry_to_m = 0;  // nearer tiles are drawn as what is planted on them; 0: none
+    double texture_from_m = std::numeric_limits<double>::infinity();
+    double colour_from_m = std::numeric_limits<double>::infinity();  // at least texture_from_m
+    double radius_m = std::numeric_limits<double>::infinity();       // nothing is drawn beyond
+    // Of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other.
+    double fade_share = 0.05;
+};
+// The levels of the set that lie between, their distances as the set has them. Rungs that would have no room are left out.
+Ladder ladder_of(const ImageSet& set, const LadderOptions& options);
+
+constexpr uint32_t kWhole = 256;  // what shares add up to
+
+// Two neighbours and how much of the second there is: 0 .. kWhole. first == second if there is only one.
+struct Mix {
+    uint32_t first = 0, second = 0, second_share = 0;
+
+    bool operator==(const Mix&) const = default;
+};
+// Of the ladder's rungs.
+Mix rungs_at(const Ladder& ladder, double distance_m);
+// Of the set's directions, for an eye at such a place from a tile's middle; fade_share: of the angle between two directions, to
+// both sides, 0..0.5. Without a fade: direction_for.
+Mix directions_at(const ImageSet& set, const glm::dvec2& eye_from_middle_m, double fade_share);
+
+// Which of the kWhole hashed values show an image: [from, to).
+struct Thresholds {
+    uint32_t from = 0, to = kWhole;
+
+    bool contains(uint32_t value) const { return value >= from && value < to; }
+    uint32_t share() const { return to - from; }
+    bool operator==(const Thresholds&) const = default;
+};
+inline Thresholds first_of(const Mix& mix) {
+    return {0, kWhole - mix.second_share};
+}
+inline Thresholds second_of(const Mix& mix) {
+    return {kWhole - mix.second_share, kWhole};
+}
+
+// What decides at a pixel of an image, of side_px, between two rungs: of both rungs' images the coarser one's pixels decide, so
+// that what one leaves out the other shows. coarser_px <= side_px: pixels along its side. tile: a number of the tile's own.
+inline uint32_t rung_threshold(uint64_t tile, uint32_t column, uint32_t row, uint32_t side_px, uint32_t coarser_px) {
+    auto coarse = [&](uint32_t pixel) { return int64_t((uint64_t(2) * pixel + 1) * coarser_px / (uint64_t(2) * side_px)); };
+    return uint32_t(hash_of(tile, 0x7275, coarse(column), coarse(row)) >> 56);
+}
+// The same between two directions of one level.
+inline uint32_t direction_threshold(uint64_t tile, uint32_t column, uint32_t row) {
+    return uint32_t(hash_of(tile, 0x6469, column, row) >> 56);
+}
+
+}  // namespace overlook::wang_ldi

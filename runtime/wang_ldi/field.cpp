@@ -1,0 +1,83 @@
+#include "runtime/wang_ldi/field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr double kPaperRadius_tiles = 40;
+constexpr uint32_t kMostPieces_log2 = 4;
+constexpr uint32_t kMostTextureSide_px = 4096;
+
+bool is_share(double value) {
+    return value >= 0 && value <= 0.5;
+}
+
+Result<void> check(const FieldOptions& options) {
+    if (!is_share(options.ladder.fade_share) || !is_share(options.direction_fade_share))
+        return bad_command("a field's fades of {} and {}: shares from 0 to 0.5 are needed", options.ladder.fade_share,
+                           options.direction_fade_share);
+    if (!(options.block_share > 0 && options.block_share <= 0.5))
+        return bad_command("a field's blocks of {} of their distance: above 0 and up to 0.5 is needed", options.block_share);
+    if (options.most_pieces_log2 > kMostPieces_log2)
+        return bad_command("tiles in 2^{} pieces a side: 2^{} at most", options.most_pieces_log2, kMostPieces_log2);
+    if (options.texture_side_px < 1 || options.texture_side_px > kMostTextureSide_px)
+        return bad_command("textures of {} pixels a side: 1 to {} are needed", options.texture_side_px, kMostTextureSide_px);
+    if (!(options.displacement_px > 0)) return bad_command("a displacement of {} px: above 0 is needed", options.displacement_px);
+    const LadderOptions& ladder = options.ladder;
+    if (!(ladder.radius_m > 0 && ladder.geometry_to_m >= 0 && ladder.texture_from_m >= 0 &&
+          ladder.colour_from_m >= ladder.texture_from_m))
+        return bad_command("a field with geometry to {} m, textures from {} m, colours from {} m, {} m wide: out of order",
+                           ladder.geometry_to_m, ladder.texture_from_m, ladder.colour_from_m, ladder.radius_m);
+    return {};
+}
+
+}  // namespace
+
+FieldOptions paper_options(const ImageSet& set) {
+    FieldOptions options;
+    options.ladder.radius_m = kPaperRadius_tiles * set.tile_m, options.ladder.fade_share = 0;
+    options.direction_fade_share = 0;
+    options.displacement_px = INFINITY, options.most_pieces_log2 = 0, options.chooses_diagonals = false;
+    return options;
+}
+
+FieldOptions options_to_horizon(const ImageSet& set, double focal_px, double geometry_to_m) {
+    FieldOptions options;
+    options.ladder.geometry_to_m = geometry_to_m;
+    options.ladder.texture_from_m = std::max(set.cell.farthest_m, focal_px * set.tile_m / options.texture_side_px);
+    options.ladder.colour_from_m = std::max(options.ladder.texture_from_m, focal_px * set.tile_m);
+    return options;
+}
+
+Result<Field> Field::of(const FieldParts& parts, const FieldOptions& options) {
+    if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
+    const ImageSet& images = *parts.images;
+    if (images.tile_m != parts.placement->tile_m())
+        return bad_command("a field of tiles of {} m with images of {} m", parts.placement->tile_m(), images.tile_m);
+    if (images.tile_count != parts.set->tiles.size() || images.levels.empty() || images.direction_count == 0)
+        return bad_command("a field of {} tiles with images of {} tiles, {} levels, {} directions", parts.set->tiles.size(),
+                           images.tile_count, images.levels.size(), images.direction_count);
+    if (parts.sample_counts.size() != images.ldi_count())
+        return bad_command("a field of {} images with {} counts of samples", images.ldi_count(), parts.sample_counts.size());
+    Field made;
+    made.parts_ = parts, made.options_ = options, made.ladder_ = ladder_of(images, options.ladder);
+    made.blocks_from_m_ = made.reach_m_ = INFINITY;
+    for (const Rung& rung : made.ladder_.rungs) {
+        if (rung.stage >= Stage::texture) made.blocks_from_m_ = std::min(made.blocks_from_m_, rung.fade_to_m);
+        if (rung.stage == Stage::bare) made.reach_m_ = rung.fade_to_m;
+    }
+    return made;
+}
+
+uint64_t Field::image_of(const Item& item, const Shown& shown) const {
+    return index_of(*parts_.images, {item.context, item.tile, ladder_.rungs[shown.rung].level, shown.direction});
+}
+
+double Field::distance_m(const glm::dvec2& ground_m, double eye_above_ground_m) const {
+    double above = std::max(0.0, eye_above_ground_m - parts_.images->cell.eye_high_m);
+    return std::sqrt(glm::dot(ground_m, ground_m) + above * above);
+}
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/view/pixel_error.h"
+#include "runtime/wang_ldi/field.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+// The quarters of a square cut in its middle, from the one farthest behind the two cuts to the one the eye is over: 0 or 1
+// east and north.
+std::array<std::pair<int, int>, 4> quarters_towards(const glm::dvec2& eye, const glm::dvec2& middle) {
+    int near_x = eye.x >= middle.x, near_y = eye.y >= middle.y;
+    return {{{1 - near_x, 1 - near_y}, {1 - near_x, near_y}, {near_x, 1 - near_y}, {near_x, near_y}}};
+}
+
+// The least power of two that is not below.
+uint32_t power_of_two(double value) {
+    uint32_t power = 1;
+    while (double(power) < value && power < 1u << 30) power *= 2;
+    return power;
+}
+
+// 0 inside.
+double distance_to(const Rect& rect, const glm::dvec2& at_m) {
+    return glm::length(at_m - glm::clamp(at_m, rect.low_m, rect.high_m));
+}
+
+int64_t tile_below(double at_tiles) {
+    return int64_t(std::floor(at_tiles));
+}
+
+}  // namespace
+
+// Through the tree of blocks, whose cuts are vertical: all that is behind a cut is drawn before all that is before it.
+class FieldWalk {
+  public:
+    FieldWalk(const Field& field, const view::Camera& camera, FieldList& list)
+        : field_(field),
+          images_(*field.parts_.images),
+          placement_(*field.parts_.placement),
+          list_(list),
+          sides_(view::sides_of(camera)),
+          forward_(view::axes_of(camera).forward),
+          eye_m_(camera.position_m),
+          near_m_(camera.near_m),
+          focal_px_(view::focal_px(camera)),
+          secant_(view::corner_secant(camera)) {}
+
+    void run() {
+        double tile_m = images_.tile_m;
+        const Rect& extent = placement_.ground().extent();
+        glm::dvec2 eye(eye_m_), low = glm::max(extent.low_m, eye - field_.reach_m_) / tile_m;
+        glm::dvec2 high = glm::min(extent.high_m, eye + field_.reach_m_) / tile_m;
+        if (!(low.x < high.x && low.y < high.y)) return;
+        int64_t left = tile_below(low.x), right = tile_below(high.x), bottom = tile_below(low.y), top = tile_below(high.y);
+        uint8_t log2 = 0;
+        while ((int64_t(1) << log2) <= std::max(right - left, top - bottom)) ++log2;
+        // So that there are two roots each way at most.
+        glm::dvec2 cut = placement_.rect_of((right >> log2) << log2, (top >> log2) << log2).low_m;
+        for (auto [x, y] : quarters_towards(eye, cut)) {
+            int64_t i = (right >> log2) - 1 + x, j = (top >> log2) - 1 + y;
+            if (i >= left >> log2 && j >= bottom >> log2) visit(i * (int64_t(1) << log2), j * (int64_t(1) << log2), log2);
+        }
+    }
+
+  private:
+    void visit(int64_t i, int64_t j, uint8_t log2) {
+        int64_t tiles = int64_t(1) << log2;
+        Rect rect = placement_.rect_of(i, j, tiles);
+        (log2 == 0 ? list_.counts.tiles_tested : list_.counts.blocks_tested)++;
+        double ground_m = distance_to(rect, glm::dvec2(eye_m_));
+        if (ground_m >= field_.reach_m_) return;
+        GroundRange bound = placement_.ground().bound(rect);
+        if (bound.is_empty() || !is_in_sight(rect, bound)) return;
+        Placement::Coverage coverage = placement_.coverage(rect);
+        if (log2 == 0) return visit_tile(i, j, rect, coverage);
+        if (coverage == Placement::Coverage::none) return;
+        double near_m = field_.distance_m({ground_m, 0}, eye_m_.z - bound.high_m);
+        if (near_m >= field_.blocks_from_m_ && double(tiles) * images_.tile_m <= field_.options_.block_share * near_m)
+            return list_block(i, j, log2, rect, bound, coverage, near_m);
+        int64_t half = tiles / 2;
+        for (auto [x, y] : quarters_towards(glm::dvec2(eye_m_), (rect.low_m + rect.high_m) / 2.0))
+            visit(i + x * half, j + y * half, uint8_t(log2 - 1));
+    }
+
+    // Whether some of a rectangle with what is planted on it may be: a box behind one of the sides is not.
+    bool is_in_sight(const Rect& rect, const GroundRange& ground) const {
+        glm::dvec3 low = glm::dvec3(rect.low_m, ground.low_m + images_.low_m) - eye_m_;
+        glm::dvec3 high = glm::dvec3(rect.high_m, ground.high_m + images_.high_m) - eye_m_;
+        auto farthest = [&](const glm::dvec3& along) {
+            return std::max(along.x * low.x, along.x * high.x) + std::max(along.y * low.y, along.y * high.y) +
+                   std::max(along.z * low.z, along.z * high.z);
+        };
+        for (const glm::dvec3& side : sides_)
+            if (farthest(side) < 0) return false;
+        return farthest(forward_) >= near_m_;
+    }
+
+    void visit_tile(int64_t i, int64_t j, const Rect& rect, Placement::Coverage coverage) {
+        Verdict verdict = coverage == Placement::Coverage::all ? Verdict::planted : placement_.verdict(i, j);
+        ++list_.counts.tiles_by_verdict[size_t(verdict)];
+        if (verdict != Verdict::planted) return;
+        Item item;
+        item.i = i, item.j = j, item.tile = field_.parts_.tiling->at(i, j);
+        const TileSet& set = *field_.parts_.set;
+        auto corners = corners_of(set, set.tiles[item.tile]);
+        if (std::all_of(corners.begin(), corners.end(), [&](uint8_t c) { return set.corner_density[c] == 0; })) {
+            ++list_.counts.bare_tiles;
+            return;
+        }
+        GroundRange range = placement_.ground().range(rect);
+        double above_m = eye_m_.z - placement_.ground().height_m((rect.low_m + rect.high_m) / 2.0);
+        item.context = images_.context_count == 2 && placement_.is_at_edge(i, j);
+        bool is_upright = show(item, rect, range, above_m);  // has images or geometry, not textures alone
+        if (item.shown_count == 0) return;
+        if (is_upright) shear(item, rect);
+        ++list_.counts.tiles_listed;
+        list_.items.push_back(item);
+    }
+
+    void list_block(int64_t i, int64_t j, uint8_t log2, const Rect& rect, const GroundRange& bound, Placement::Coverage coverage,
+                    double near_m) {
+        Item item;
+        item.i = i, item.j = j, item.tiles_log2 = log2;
+        item.is_planted_throughout = coverage == Placement::Coverage::all;
+        item.texels_px = texels_of(double(int64_t(1) << log2), near_m);
+        show(item, rect, bound, eye_m_.z - bound.high_m);
+        if (item.shown_count == 0) return;
+        ++list_.counts.blocks_listed;
+        list_.items.push_back(item);
+    }
+
+    uint32_t texels_of(double tiles, double near_m) const {
+        double most = tiles * field_.options_.texture_side_px;
+        return power_of_two(std::min(focal_px_ * tiles * images_.tile_m / near_m, most));
+    }
+
+    // Chooses rungs and directions by the rectangle's middle; whether images or geometry are among them.
+    bool show(Item& item, const Rect& rect, const GroundRange& range, double eye_above_m) {
+        glm::dvec2 eye_from_middle = glm::dvec2(eye_m_) - (rect.low_m + rect.high_m) / 2.0;
+        item.distance_m = field_.distance_m(eye_from_middle, eye_above_m);
+        item.low_m = range.low_m + images_.low_m, item.high_m = range.high_m + images_.high_m;
+        item.first_shown = uint32_t(list_.shown.size());
+        Mix rungs = rungs_at(field_.ladder_, item.distance_m);
+        Mix directions = directions_at(images_, eye_from_middle, field_.options_.direction_fade_share);
+        bool is_upright = show_rung(item, rungs.first, first_of(rungs), directions, eye_from_middle, eye_above_m);
+        if (rungs.second != rungs.first)
+            is_upright |= show_rung(item, rungs.second, second_of(rungs), directions, eye_from_middle, eye_above_m);
+        item.shown_count = uint32_t(list_.shown.size()) - item.first_shown;
+        return is_upright;
+    }
+
+    bool show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions, const glm::dvec2& eye_from_middle,
+                   double eye_above_m) {
+        const Rung& rung = field_.ladder_.rungs[index];
+        if (rung.stage == Stage::bare) return false;
+        if (rung.stage == Stage::geometry) {
+            list_.shown.push_back({index, 0, by_rung, {}});
+            return true;
+        }
+        add_shown(item, {index, directions.first, by_rung, first_of(directions)});
+        if (directions.second != directions.first) add_shown(item, {index, directions.second, by_rung, second_of(directions)});
+        if (rung.stage != Stage::ldi) return false;
+        item.coarser_px = images_.levels[rung.level].side_px;
+        const Cell& cell = images_.cell;
+        double ground_m = glm::length(eye_from_middle);
+        bool was_outside = item.is_outside_cell;
+        item.is_outside_cell = eye_above_m < cell.eye_low_m || eye_above_m > cell.eye_high_m || ground_m < cell.nearest_m ||
+                               ground_m > cell.farthest_m;
+        list_.counts.outside_cell += item.is_outside_cell && !was_outside;
+        return true;
+    }
+
+    void add_shown(Item& item, const Shown& shown) {
+        list_.shown.push_back(shown);
+        if (field_.ladder_.rungs[shown.rung].stage == Stage::ldi) {
+            uint32_t samples = field_.parts_.sample_counts[field_.image_of(item, shown)];
+            list_.counts.samples += samples;
+            list_.counts.samples_shown +=
+                samples * (shown.by_rung.share() * shown.by_direction.share() / double(kWhole * kWhole));
+        } else {
+            if (item.texels_px == 0) item.texels_px = texels_of(1, std::max(item.distance_m, images_.tile_m));
+            if (item.tiles_log2 == 0)
+                item.coarser_px = item.coarser_px > 0 ? std::min(item.coarser_px, item.texels_px) : item.texels_px;
+            list_.counts.texels += uint64_t(item.texels_px) * item.texels_px;
+        }
+    }
+
+    // In as few pieces as keep it so near the ground as is asked, or in the most.
+    void shear(Item& item, const Rect& rect) {
+        glm::dvec3 box_low(rect.low_m, item.low_m), box_high(rect.high_m, item.high_m);
+        double distance = glm::length(eye_m_ - glm::clamp(eye_m_, box_low, box_high));
+        double depth_m = std::max(distance / secant_, near_m_);
+        auto pixels = [&](double m) { return view::error_px_bound(focal_px_, m, depth_m, secant_); };
+        const FieldOptions& options = field_.options_;
+        item.first_half = uint32_t(list_.halves.size());
+        while (true) {
+            item.displacement_m = 0;
+            add_pieces(item, rect, 0, 0, uint32_t(1) << item.pieces_log2);
+            if (pixels(item.displacement_m) <= options.displacement_px || item.pieces_log2 >= options.most_pieces_log2) break;
+            ++item.pieces_log2, list_.halves.resize(item.first_half);
+        }
+        item.half_count = uint32_t(list_.halves.size()) - item.first_half;
+        FieldCounts& counts = list_.counts;
+        counts.cut_tiles += item.pieces_log2 > 0, counts.pieces += uint64_t(1) << (2 * item.pieces_log2);
+        counts.displaced_tiles += !(pixels(item.displacement_m) <= options.displacement_px);
+        counts.displacement_px = std::max(counts.displacement_px, pixels(item.displacement_m));
+    }
+
+    // Of the square of `pieces` pieces from this column and row on.
+    void add_pieces(Item& item, const Rect& tile, uint32_t column, uint32_t row, uint32_t pieces) {
+        double piece_m = images_.tile_m / double(1u << item.pieces_log2);
+        Rect rect{tile.low_m + glm::dvec2(column, row) * piece_m,
+                  tile.low_m + glm::dvec2(column + pieces, row + pieces) * piece_m};
+        glm::dvec2 eye(eye_m_);
+        if (pieces > 1) {
+            uint32_t half = pieces / 2;
+            for (auto [x, y] : quarters_towards(eye, (rect.low_m + rect.high_m) / 2.0))
+                add_pieces(item, tile, column + uint32_t(x) * half, row + uint32_t(y) * half, half);
+            return;
+        }
+        if (item.pieces_log2 == 0) rect = tile;
+        rect.high_m = glm::min(rect.high_m, tile.high_m);  // rounding leaves it inside the ground
+        const Ground& ground = placement_.ground();
+        Sheared sheared = field_.options_.chooses_diagonals ? ground.sheared(rect) : ground.sheared(rect, Diagonal::rising);
+        item.displacement_m = std::max(item.displacement_m, sheared.displacement_m);
+        glm::dvec2 share = (eye - rect.low_m) / (rect.high_m - rect.low_m);
+        uint32_t first = farther_half(sheared.diagonal, share.x, share.y);
+        for (uint32_t half : {first, 1 - first}) {
+            Plane plane = sheared.halves[half];
+            plane.height_m -= glm::dot(plane.slope, rect.low_m - tile.low_m);
+            list_.halves.push_back({uint8_t(column), uint8_t(row), uint8_t(half), sheared.diagonal, plane});
+        }
+    }
+
+    const Field& field_;
+    const ImageSet& images_;
+    const Placement& placement_;
+    FieldList& list_;
+    std::array<glm::dvec3, 4> sides_;
+    glm::dvec3 forward_, eye_m_;
+    double near_m_, focal_px_, secant_;
+};
+
+void Field::list(const view::Camera& camera, FieldList& list) const {
+    list.items.clear(), list.shown.clear(), list.halves.clear(), list.counts = {};
+    FieldWalk(*this, camera, list).run();
+}
+
+}  // namespace overlook::wang_ldi

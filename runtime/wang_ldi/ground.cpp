@@ -1,0 +1,206 @@
+#include "runtime/wang_ldi/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr double kPlain_m = 1e7;
+
+// The edges of the ground's triangles lie on four families of lines: whole columns, whole rows, and those where column - row or
+// column + row is even. Visits where the segment from p to q crosses any of them: between two such places the ground is straight.
+template <class Visit>
+void visit_crossings(const glm::dvec2& p, const glm::dvec2& q, const Visit& visit) {
+    auto family = [&](double at_p, double at_q, double step) {
+        if (at_p == at_q) return;
+        double last = std::max(at_p, at_q);
+        for (double value = std::ceil(std::min(at_p, at_q) / step) * step; value <= last; value += step)
+            visit(p + (q - p) * ((value - at_p) / (at_q - at_p)));
+    };
+    family(p.x, q.x, 1), family(p.y, q.y, 1);
+    family(p.x - p.y, q.x - q.y, 2), family(p.x + p.y, q.x + q.y, 2);
+}
+
+// South-west, south-east, north-west, north-east.
+std::array<glm::dvec2, 4> corners_of(const Rect& rect) {
+    return {rect.low_m, {rect.high_m.x, rect.low_m.y}, {rect.low_m.x, rect.high_m.y}, rect.high_m};
+}
+
+double rise_of(double along_columns, double along_rows, const terrain::Frame& frame) {
+    double x = along_columns / frame.metres_per_column, y = along_rows / frame.metres_per_row;
+    return std::sqrt(x * x + y * y);
+}
+
+}  // namespace
+
+void Ground::Cells::take(const Cells& other) {
+    low = std::min(low, other.low), high = std::max(high, other.high);
+    steepest = std::max(steepest, other.steepest);
+}
+
+Ground Ground::plain(double height_m) {
+    Ground ground;
+    ground.plain_height_m_ = height_m;
+    ground.extent_ = {glm::dvec2(-kPlain_m), glm::dvec2(kPlain_m)};
+    return ground;
+}
+
+Ground::Ground(const terrain::Terrain& terrain) : terrain_(&terrain) {
+    uint32_t columns = terrain.shape.width - 1, rows = terrain.shape.height - 1;
+    extent_ = {{0, -(rows * terrain.frame.metres_per_row)}, {columns * terrain.frame.metres_per_column, 0}};
+    pyramid_ = Pyramid<Cells>(columns, rows, [&](uint32_t column, uint32_t row) { return cell(column, row); });
+}
+
+glm::dvec2 Ground::grid_of(const glm::dvec2& at_m) const {
+    return {at_m.x / terrain_->frame.metres_per_column, -at_m.y / terrain_->frame.metres_per_row};
+}
+
+Ground::Cells Ground::cell(uint32_t column, uint32_t row) const {
+    Cells cells;
+    double heights[2][2] = {};
+    for (uint32_t j = 0; j < 2; ++j)
+        for (uint32_t i = 0; i < 2; ++i) {
+            int32_t steps = terrain_->heights[size_t(row + j) * terrain_->shape.width + column + i];
+            if (steps == terrain::kVoid)
+                cells.steepest = std::numeric_limits<float>::infinity();
+            else
+                cells.low = std::min(cells.low, steps), cells.high = std::max(cells.high, steps);
+            heights[j][i] = terrain_->height_step_m * steps;
+        }
+    if (std::isinf(cells.steepest)) return cells;
+    // The diagonal joins the samples whose column + row is even: a triangle has one whole row's side and one whole column's.
+    double top = heights[0][1] - heights[0][0], bottom = heights[1][1] - heights[1][0];
+    double left = heights[1][0] - heights[0][0], right = heights[1][1] - heights[0][1];
+    bool falls = (column + row) % 2 == 0;
+    double one = rise_of(top, falls ? right : left, terrain_->frame);
+    double other = rise_of(bottom, falls ? left : right, terrain_->frame);
+    cells.steepest = std::nextafter(float(std::max(one, other)), std::numeric_limits<float>::infinity());
+    return cells;
+}
+
+double Ground::height_at(const glm::dvec2& grid) const {
+    if (!terrain_) return plain_height_m_;
+    const terrain::Shape& shape = terrain_->shape;
+    auto column = uint32_t(std::clamp(std::floor(grid.x), 0.0, double(shape.width - 2)));
+    auto row = uint32_t(std::clamp(std::floor(grid.y), 0.0, double(shape.height - 2)));
+    double x = std::clamp(grid.x - column, 0.0, 1.0), y = std::clamp(grid.y - row, 0.0, 1.0);
+    auto height = [&](uint32_t i, uint32_t j) {
+        return terrain_->is_void(column + i, row + j) ? NAN : terrain_->height_m(column + i, row + j);
+    };
+    double h00 = height(0, 0), h10 = height(1, 0), h01 = height(0, 1), h11 = height(1, 1);
+    // The corner that the triangle's right angle is at, and its two neighbours along the row and along the column.
+    double corner, along_row, along_column;
+    if ((column + row) % 2 == 0) {
+        bool is_upper = x >= y;
+        corner = is_upper ? h10 : h01, along_row = is_upper ? h00 : h11, along_column = is_upper ? h11 : h00;
+        x = is_upper ? 1 - x : x, y = is_upper ? y : 1 - y;
+    } else {
+        bool is_upper = x + y <= 1;
+        corner = is_upper ? h00 : h11, along_row = is_upper ? h10 : h01, along_column = is_upper ? h01 : h10;
+        x = is_upper ? x : 1 - x, y = is_upper ? y : 1 - y;
+    }
+    if (std::isnan(h00 + h10 + h01 + h11)) return NAN;
+    return std::clamp(corner + x * (along_row - corner) + y * (along_column - corner),
+                      std::min({corner, along_row, along_column}), std::max({corner, along_row, along_column}));
+}
+
+double Ground::height_m(const glm::dvec2& at_m) const {
+    return terrain_ ? height_at(grid_of(at_m)) : plain_height_m_;
+}
+
+// Of a rectangle that reaches into the extent.
+Ground::Touched Ground::touched_by(const Rect& rect) const {
+    glm::dvec2 first = grid_of({rect.low_m.x, rect.high_m.y}), last = grid_of({rect.high_m.x, rect.low_m.y});
+    double right = terrain_->shape.width - 2, bottom = terrain_->shape.height - 2;
+    auto clamped = [](double value, double most) { return uint32_t(std::clamp(value, 0.0, most)); };
+    return {clamped(std::floor(first.x), right), clamped(std::floor(first.y), bottom), clamped(std::ceil(last.x) - 1, right),
+            clamped(std::ceil(last.y) - 1, bottom)};
+}
+
+template <class Visit>
+void Ground::visit_samples_inside(const Rect& rect, const Visit& visit) const {
+    glm::dvec2 first = grid_of({rect.low_m.x, rect.high_m.y}), last = grid_of({rect.high_m.x, rect.low_m.y});
+    for (double row = std::ceil(first.y); row <= last.y; ++row)
+        for (double column = std::ceil(first.x); column <= last.x; ++column) visit(glm::dvec2(column, row));
+}
+
+GroundRange Ground::range(const Rect& rect) const {
+    GroundRange range;
+    range.is_whole = extent_.contains(rect);
+    if (!range.is_whole) return range;
+    if (!terrain_) return {plain_height_m_, plain_height_m_, 0, true};
+    Touched touched = touched_by(rect);
+    Cells cells;
+    for (uint32_t row = touched.top; row <= touched.bottom; ++row)
+        for (uint32_t column = touched.left; column <= touched.right; ++column) cells.take(cell(column, row));
+    range.steepest = double(cells.steepest), range.is_whole = !std::isinf(cells.steepest);
+    if (!range.is_whole) return range;
+    auto take = [&](const glm::dvec2& grid) {
+        double height = height_at(grid);
+        range.low_m = std::min(range.low_m, height), range.high_m = std::max(range.high_m, height);
+    };
+    auto corners = corners_of(rect);
+    for (const glm::dvec2& corner : corners) take(grid_of(corner));
+    visit_samples_inside(rect, take);
+    for (auto [a, b] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}})
+        visit_crossings(grid_of(corners[size_t(a)]), grid_of(corners[size_t(b)]), take);
+    return range;
+}
+
+GroundRange Ground::bound(const Rect& rect) const {
+    GroundRange range;
+    range.is_whole = extent_.contains(rect);
+    if (!extent_.meets(rect)) return range;
+    if (!terrain_) return {plain_height_m_, plain_height_m_, 0, range.is_whole};
+    Touched touched = touched_by(rect);
+    Cells cells;
+    if (touched.right - touched.left < 3 && touched.bottom - touched.top < 3) {
+        for (uint32_t row = touched.top; row <= touched.bottom; ++row)
+            for (uint32_t column = touched.left; column <= touched.right; ++column) cells.take(cell(column, row));
+    } else {
+        cells = pyramid_.bound(touched.left, touched.top, touched.right, touched.bottom);
+    }
+    range.steepest = double(cells.steepest), range.is_whole &= !std::isinf(cells.steepest);
+    if (cells.low > cells.high) return range;
+    range.low_m = terrain_->height_offset_m + terrain_->height_step_m * cells.low;
+    range.high_m = terrain_->height_offset_m + terrain_->height_step_m * cells.high;
+    return range;
+}
+
+Sheared Ground::sheared(const Rect& rect, Diagonal diagonal) const {
+    auto corners = corners_of(rect);
+    glm::dvec2 side = rect.high_m - rect.low_m;
+    double sw = height_m(corners[0]), se = height_m(corners[1]), nw = height_m(corners[2]), ne = height_m(corners[3]);
+    Sheared made;
+    made.diagonal = diagonal;
+    if (diagonal == Diagonal::rising) {
+        made.halves = {Plane{sw, {(ne - nw) / side.x, (nw - sw) / side.y}}, Plane{sw, {(se - sw) / side.x, (ne - se) / side.y}}};
+    } else {
+        glm::dvec2 south_west((se - sw) / side.x, (nw - sw) / side.y), north_east((ne - nw) / side.x, (ne - se) / side.y);
+        made.halves = {Plane{sw, south_west}, Plane{nw + se - ne, north_east}};
+    }
+    if (!terrain_) return made;
+    // Both surfaces are straight between these places, so that their distance is greatest at one of them.
+    glm::dvec2 per_sample(terrain_->frame.metres_per_column, -terrain_->frame.metres_per_row);
+    auto take = [&](const glm::dvec2& grid) {
+        glm::dvec2 from_corner = grid * per_sample - rect.low_m, share = from_corner / side;
+        const Plane& plane = made.halves[half_of(diagonal, share.x, share.y)];
+        double plane_m = plane.height_m + glm::dot(plane.slope, from_corner);
+        made.displacement_m = std::max(made.displacement_m, std::abs(height_at(grid) - plane_m));
+    };
+    visit_samples_inside(rect, take);
+    auto [a, b] = diagonal == Diagonal::rising ? std::pair{0, 3} : std::pair{2, 1};
+    for (auto [from, to] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}, {a, b}})
+        visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]), take);
+    return made;
+}
+
+Sheared Ground::sheared(const Rect& rect) const {
+    Sheared rising = sheared(rect, Diagonal::rising);
+    if (rising.displacement_m == 0) return rising;
+    Sheared falling = sheared(rect, Diagonal::falling);
+    return falling.displacement_m < rising.displacement_m ? falling : rising;
+}
+
+}  // namespace overlook::wang_ldi
