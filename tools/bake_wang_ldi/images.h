@@ -1,7 +1,6 @@
 // The second step of bake-wang-ldi: ground into layered depth images of its tiles.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "runtime/command/command.h"
@@ -36,7 +35,8 @@ Result<wang_ldi::ImageReport> add_images(container::Writer& writer, const Ground
 // What of the options decides the bytes, as words.
 void add_image_options_in_words(const ImageArgs& args, container::Provenance& provenance);
 
-nlohmann::ordered_json images_json(const wang_ldi::ImageReport& report);
+// A JSON object as text.
+std::string images_json(const wang_ldi::ImageReport& report);
 void say_images(const wang_ldi::ImageReport& report, const command::Common& common);
 
 }  // namespace overlook::bake_wang_ldi

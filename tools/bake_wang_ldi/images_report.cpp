@@ -61,7 +61,7 @@ Total total_of(const wang_ldi::ImageReport& report) {
 
 }  // namespace
 
-ordered_json images_json(const wang_ldi::ImageReport& report) {
+std::string images_json(const wang_ldi::ImageReport& report) {
     ordered_json json = total_json(total_of(report));
     json["directions"] = report.set.direction_count, json["contexts"] = report.set.context_count;
     json["eyes_m"] = {report.set.cell.eye_low_m, report.set.cell.eye_high_m};
@@ -81,7 +81,7 @@ ordered_json images_json(const wang_ldi::ImageReport& report) {
             if (total.images > 0) one["by_direction"].push_back(total_json(total));
         json["levels"].push_back(one);
     }
-    return json;
+    return json.dump();
 }
 
 void say_images(const wang_ldi::ImageReport& report, const command::Common& common) {

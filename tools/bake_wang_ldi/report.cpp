@@ -77,7 +77,7 @@ void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t byte
     if (common.json) {
         ordered_json json{{"file", args.output}, {"tiles", tiles_json(done)}, {"planting", planting_json(done)}, {"bytes", bytes},
                           {"set_s", done.set_s}, {"plant_s", done.plant_s},   {"measure_s", done.measure_s}};
-        if (images) json["images"] = images_json(*images);
+        if (images) json["images"] = ordered_json::parse(images_json(*images));
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
         return;
     }
