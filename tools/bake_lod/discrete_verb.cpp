@@ -115,6 +115,9 @@ void add_mesh_options(CLI::App& verb, DiscreteArgs& args) {
         ->check(command::number_in(0, 90))
         ->capture_default_str();
     verb.add_flag("--ignore-uv", groups.ignores_uv, "Leave texture coordinates out: their seams fix nothing then");
+    verb.add_flag("--keep-thin", args.choices.bake.simplify.keeps_thin,
+                  "Of levels that are cut, as of bake-lod mesh: masts, railings and wires stay until they are a fraction of a pixel "
+                  "wide; their errors are those that cutting proves, not measured anew");
     verb.add_option("--seams", args.seams,
                     "Of levels that are cut, as of bake-lod mesh: budgeted lets seams move, which goes further")
         ->check(CLI::IsMember({"strict", "budgeted"}))

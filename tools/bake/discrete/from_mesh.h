@@ -45,10 +45,10 @@ std::vector<Part> parts_of(const mesh::Motion& motion);
 
 // Bakes in memory. All levels come from one family: with a distance allowed, each part's solid pieces are cut from its hierarchy
 // within it, small ones left out where what stays is within it, and each part's cards are lost and grow within it. The error of a
-// level is the lesser of that distance as it came out and of a measurement from above (surface_distance.h), and holds twice what
-// laying it on 16 bits moved. That of a level of billboards (billboards.h) is measured from above as it is stored, by its texels.
-// A pure function of its arguments, for any number of threads. Fails as caveclod::bake does, and with Exit::impossible for more
-// than kMostParts parts.
+// level is the lesser of that distance as it came out and of a measurement from above (surface_distance.h; not where thin things
+// are kept, SimplifyOptions), and holds twice what laying it on 16 bits moved. That of a level of billboards (billboards.h) is
+// measured from above as it is stored, by its texels. A pure function of its arguments, for any number of threads. Fails as
+// caveclod::bake does, and with Exit::impossible for more than kMostParts parts.
 Result<Chain> chain_from_mesh(const mesh::MeshFile& file, const MeshChainOptions& options, MeshChainReport& report,
                               const std::function<void(double)>& progress);
 
