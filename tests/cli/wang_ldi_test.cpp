@@ -68,12 +68,12 @@ TEST(BakeWangLdi, WritesSameBytesWithAnyThreadCount) {
     write_recipe(folder);
     std::string first;
     for (const char* threads : {"1", "2", "3"}) {
-        expect_done(bake(folder, {"--quiet", "--threads", threads}));
+        expect_done(bake(folder, {"--only", "planting", "--quiet", "--threads", threads}));
         std::string bytes = text_of_file(folder / "out.ovl");
         EXPECT_TRUE(first.empty() || bytes == first);
         first = bytes;
     }
-    expect_done(bake(folder, {"--quiet", "--seed", "2"}));
+    expect_done(bake(folder, {"--only", "planting", "--quiet", "--seed", "2"}));
     EXPECT_FALSE(text_of_file(folder / "out.ovl") == first);
 }
 
@@ -81,7 +81,7 @@ TEST(BakeWangLdi, BakesEverySetAndThePapersPlanting) {
     ScratchFolder folder;
     write_recipe(folder);
     for (const char* tiles : {"1", "8", "16", "robinson", "corners"}) {
-        Ran ran = bake(folder, {"--tiles", tiles, "--json"});
+        Ran ran = bake(folder, {"--only", "planting", "--tiles", tiles, "--json"});
         expect_done(ran);
         nlohmann::json report = nlohmann::json::parse(ran.out);
         EXPECT_EQ(report["tiles"]["count"], *tiles == 'r' || *tiles == 'c' ? 16 : std::stoi(tiles));
@@ -93,13 +93,13 @@ TEST(BakeWangLdi, BakesEverySetAndThePapersPlanting) {
             EXPECT_LE(correlation, 0.02) << tiles;
         }
     }
-    Ran ran = bake(folder, {"--planting", "paper", "--tiles", "8", "--json"});
+    Ran ran = bake(folder, {"--only", "planting", "--planting", "paper", "--tiles", "8", "--json"});
     expect_done(ran);
     nlohmann::json report = nlohmann::json::parse(ran.out);
     EXPECT_EQ(report["planting"]["method"], "paper");
     EXPECT_GE(report["planting"]["more_per_tile"], 1);
 
-    ran = bake(folder, {"--borders", "--variants", "2", "--json"});
+    ran = bake(folder, {"--only", "planting", "--borders", "--variants", "2", "--json"});
     expect_done(ran);
     report = nlohmann::json::parse(ran.out);
     EXPECT_EQ(report["tiles"]["count"], 86);
@@ -110,7 +110,7 @@ TEST(BakeWangLdi, BakesEverySetAndThePapersPlanting) {
 TEST(BakeWangLdi, ShowsItsTilesAsPictures) {
     ScratchFolder folder;
     write_recipe(folder);
-    expect_done(bake(folder, {"--quiet"}));
+    expect_done(bake(folder, {"--only", "planting", "--quiet"}));
     expect_done(run({"baked", "info", folder / "out.ovl", "--sheet", folder / "sheet"}));
     for (const char* name :
          {"tiles.png", "tiling-32.png", "tiling-256.png", "robinson-32.png", "robinson-256.png", "spectrum.png",

@@ -5,7 +5,7 @@ namespace overlook::layering {
 
 std::span<const Seam> seams() {
     static const std::vector<Seam> kSeams = {
-        {"Embree", {"embree"}, {"tools/bake/rays.cpp", "tools/bake/discrete/ray_scene.cpp"}},
+        {"Embree", {"embree"}, {"tools/bake/rays.cpp"}},
         {"OpenMesh", {"OpenMesh/"}, {"tools/bake/caveclod/openmesh_topology.cpp"}},
         {"CGAL", {"CGAL/"}, {"tools/bake/cgal/self_intersections.cpp"}},
         {"Draco", {"draco/"}, {"formats/draco_codec.cpp", "tools/bake/mesh/gltf_draco.cpp"}},

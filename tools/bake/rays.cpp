@@ -27,6 +27,28 @@ struct Collector {
     RTCIntersectContext context;
     std::vector<Hit>* hits;
 };
+// Has a ray go on where what it meets is not accepted.
+struct Chooser {
+    RTCIntersectContext context;
+    const std::function<bool(const Hit&)>* accept;
+};
+
+// What a filter is asked about, of one ray.
+Hit hit_of(const RTCFilterFunctionNArguments* args) {
+    unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
+    unsigned copy = instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(args->hit, 1, 0) : instance;
+    return {copy, RTCHitN_primID(args->hit, 1, 0), RTCRayN_tfar(args->ray, 1, 0), RTCHitN_u(args->hit, 1, 0),
+            RTCHitN_v(args->hit, 1, 0)};
+}
+
+RTCRayHit one_ray(const Ray& ray) {
+    RTCRayHit one{};
+    one.ray.org_x = ray.from_m.x, one.ray.org_y = ray.from_m.y, one.ray.org_z = ray.from_m.z;
+    one.ray.dir_x = ray.along.x, one.ray.dir_y = ray.along.y, one.ray.dir_z = ray.along.z;
+    one.ray.tnear = ray.nearest, one.ray.tfar = ray.farthest, one.ray.mask = 0xffffffff;
+    one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return one;
+}
 
 glm::vec3 placed(const glm::mat4x3& place, const glm::vec3& position) {
     return place * glm::vec4(position, 1);
@@ -156,9 +178,10 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-Result<Scene> Scene::build(std::span<const Mesh> meshes, std::span<const Copy> copies, Layout layout) {
+Result<Scene> Scene::build(std::span<const Mesh> meshes, std::span<const Copy> copies, Layout layout,
+                           Instructions instructions) {
     auto parts = std::make_unique<Parts>();
-    parts->device = rtcNewDevice("threads=1");
+    parts->device = rtcNewDevice(instructions == Instructions::best ? "threads=1" : "threads=1,isa=sse2,max_isa=sse2");
     if (!parts->device) return impossible("Embree cannot begin: {}", reason_of(rtcGetDeviceError(nullptr)));
     parts->scene = new_scene(parts->device);
     if (layout == Layout::flattened)
@@ -211,6 +234,19 @@ void Scene::are_blocked(std::span<const Ray> rays, std::span<uint8_t> blocked) c
     }
 }
 
+Hit Scene::first_accepted(const Ray& ray, const std::function<bool(const Hit&)>& accept) const {
+    Chooser chooser;
+    rtcInitIntersectContext(&chooser.context);
+    chooser.accept = &accept;
+    chooser.context.filter = [](const RTCFilterFunctionNArguments* args) {
+        if (args->valid[0] == -1 && !(*reinterpret_cast<Chooser*>(args->context)->accept)(hit_of(args))) args->valid[0] = 0;
+    };
+    alignas(16) RTCRayHit one = one_ray(ray);
+    rtcIntersect1(parts_->scene, &chooser.context, &one);
+    if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {parts_->copy_of(one.hit.geomID, one.hit.instID[0]), one.hit.primID, one.ray.tfar, one.hit.u, one.hit.v};
+}
+
 std::vector<Hit> Scene::all_hits(const Ray& ray) const {
     std::vector<Hit> hits;
     Collector collector;
@@ -218,18 +254,10 @@ std::vector<Hit> Scene::all_hits(const Ray& ray) const {
     collector.hits = &hits;
     collector.context.filter = [](const RTCFilterFunctionNArguments* args) {
         if (args->valid[0] != -1) return;
-        auto* to = reinterpret_cast<Collector*>(args->context)->hits;
-        unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
-        unsigned copy = instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(args->hit, 1, 0) : instance;
-        to->push_back({copy, RTCHitN_primID(args->hit, 1, 0), RTCRayN_tfar(args->ray, 1, 0), RTCHitN_u(args->hit, 1, 0),
-                       RTCHitN_v(args->hit, 1, 0)});
+        reinterpret_cast<Collector*>(args->context)->hits->push_back(hit_of(args));
         args->valid[0] = 0;
     };
-    alignas(16) RTCRayHit one{};
-    one.ray.org_x = ray.from_m.x, one.ray.org_y = ray.from_m.y, one.ray.org_z = ray.from_m.z;
-    one.ray.dir_x = ray.along.x, one.ray.dir_y = ray.along.y, one.ray.dir_z = ray.along.z;
-    one.ray.tnear = ray.nearest, one.ray.tfar = ray.farthest, one.ray.mask = 0xffffffff;
-    one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    alignas(16) RTCRayHit one = one_ray(ray);
     rtcIntersect1(parts_->scene, &collector.context, &one);
 
     std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -55,6 +56,10 @@ struct Hit {
 // How copies are kept: each with triangles of its own (a half faster), or as instances of one tree for each mesh (little memory).
 enum class Layout { flattened, instances };
 
+// Which of a processor's instructions are used: the best that it has, or those that all have, so that a ray hits the same on every
+// one, to the last bit.
+enum class Instructions { best, everywhere };
+
 // What a flattened layout of these copies takes about, in bytes (Embree 3.13: 110 to 130 a triangle).
 uint64_t flattened_bytes(std::span<const Mesh> meshes, std::span<const Copy> copies);
 
@@ -63,7 +68,8 @@ uint64_t flattened_bytes(std::span<const Mesh> meshes, std::span<const Copy> cop
 class Scene {
   public:
     // Fails with Exit::impossible: "Embree cannot build 12 copies of meshes: ..." with its reason.
-    static Result<Scene> build(std::span<const Mesh> meshes, std::span<const Copy> copies, Layout layout);
+    static Result<Scene> build(std::span<const Mesh> meshes, std::span<const Copy> copies, Layout layout,
+                               Instructions instructions = Instructions::best);
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
@@ -71,6 +77,8 @@ class Scene {
     // The first solid surface along each ray, in packets of rays that go about the same way (kPacket at once; hits.size() is
     // rays.size()). Watertight.
     void first_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
+    // The nearest along a ray that is solid and accepted.
+    Hit first_accepted(const Ray& ray, const std::function<bool(const Hit&)>& accept) const;
     // Whether anything solid is along each ray; these may go any way.
     void are_blocked(std::span<const Ray> rays, std::span<uint8_t> blocked) const;
     // All solid surfaces along a ray, the nearest first; one that Embree reports twice counts once.

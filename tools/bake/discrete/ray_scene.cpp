@@ -1,38 +1,17 @@
 #include "tools/bake/discrete/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
+#include <cassert>
 #include <limits>
+#include <optional>
+
+#include "tools/bake/rays.h"
 
 namespace overlook::discrete {
-namespace {
-
-// What a filter finds of the ray that it is asked about: Embree hands the context through.
-struct Context {
-    RTCIntersectContext embree;
-    const AcceptHit* accept = nullptr;
-};
-
-void filter(const RTCFilterFunctionNArguments* arguments) {
-    const auto* context = reinterpret_cast<const Context*>(arguments->context);
-    for (unsigned i = 0; i < arguments->N; ++i) {
-        if (arguments->valid[i] == 0) continue;
-        float second = RTCHitN_u(arguments->hit, arguments->N, i), third = RTCHitN_v(arguments->hit, arguments->N, i);
-        if (!(*context->accept)(RTCHitN_primID(arguments->hit, arguments->N, i), second, third)) arguments->valid[i] = 0;
-    }
-}
-
-}  // namespace
 
 struct RayScene::Trees {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
+    std::vector<rays::Mesh> meshes;  // one, which the scene looks at
+    std::optional<rays::Scene> scene;
     glm::dvec3 middle_m{0};
-
-    ~Trees() {
-        if (scene != nullptr) rtcReleaseScene(scene);
-        if (device != nullptr) rtcReleaseDevice(device);
-    }
 };
 
 RayScene::RayScene(std::span<const caveclod::Triangle> triangles) : trees_(std::make_unique<Trees>()) {
@@ -41,44 +20,27 @@ RayScene::RayScene(std::span<const caveclod::Triangle> triangles) : trees_(std::
     for (const caveclod::Triangle& t : triangles)
         for (const glm::dvec3& p : t) low = glm::min(low, p), high = glm::max(high, p);
     trees_->middle_m = (low + high) / 2.0;
-    trees_->device = rtcNewDevice("threads=1,isa=sse2,max_isa=sse2,set_affinity=0");
-    trees_->scene = rtcNewScene(trees_->device);
-    rtcSetSceneFlags(trees_->scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(trees_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
-    auto* indices = static_cast<uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles.size()));
-    uint32_t next = 0;
-    for (const caveclod::Triangle& t : triangles)
-        for (const glm::dvec3& p : t) {
-            for (int axis = 0; axis < 3; ++axis) *vertices++ = float(p[axis] - trees_->middle_m[axis]);
-            *indices++ = next++;
-        }
-    rtcSetGeometryIntersectFilterFunction(geometry, filter);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(trees_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(trees_->scene);
+    rays::Mesh& mesh = trees_->meshes.emplace_back();
+    for (const caveclod::Triangle& t : triangles) {
+        auto first = uint32_t(mesh.positions_m.size());
+        for (const glm::dvec3& p : t) mesh.positions_m.emplace_back(p - trees_->middle_m);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    const rays::Copy whole[] = {{}};
+    Result<rays::Scene> built = rays::Scene::build(trees_->meshes, whole, rays::Layout::flattened, rays::Instructions::everywhere);
+    assert(built);
+    trees_->scene.emplace(std::move(*built));
 }
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
 RayHit RayScene::first(const glm::dvec3& from, const glm::dvec3& direction, double far_m, const AcceptHit& accept) const {
-    if (trees_->scene == nullptr) return {};
-    Context context;
-    rtcInitIntersectContext(&context.embree);
-    context.accept = &accept;
-    glm::vec3 at(from - trees_->middle_m), along(direction);
-    RTCRayHit ray{};
-    ray.ray.org_x = at.x, ray.ray.org_y = at.y, ray.ray.org_z = at.z;
-    ray.ray.dir_x = along.x, ray.ray.dir_y = along.y, ray.ray.dir_z = along.z;
-    ray.ray.tnear = 0, ray.ray.tfar = float(far_m), ray.ray.mask = ~0u;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(trees_->scene, &context.embree, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return {ray.hit.primID, ray.hit.u, ray.hit.v, double(ray.ray.tfar)};
+    if (!trees_->scene) return {};
+    rays::Ray ray{glm::vec3(from - trees_->middle_m), glm::vec3(direction), 0, float(far_m)};
+    rays::Hit hit = trees_->scene->first_accepted(ray, [&](const rays::Hit& met) { return accept(met.triangle, met.u, met.v); });
+    if (hit.copy == rays::kNone) return {};
+    return {hit.triangle, hit.u, hit.v, double(hit.distance)};
 }
 
 }  // namespace overlook::discrete
