@@ -1,7 +1,7 @@
 #include "tools/bake/discrete/ray_scene.h"
 
-#include <cassert>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "tools/bake/rays.h"
@@ -28,7 +28,7 @@ RayScene::RayScene(std::span<const caveclod::Triangle> triangles) : trees_(std::
     }
     const rays::Copy whole[] = {{}};
     Result<rays::Scene> built = rays::Scene::build(trees_->meshes, whole, rays::Layout::flattened, rays::Instructions::everywhere);
-    assert(built);
+    if (!built) throw std::bad_alloc();  // all that Embree can lack, as any container
     trees_->scene.emplace(std::move(*built));
 }
 RayScene::RayScene(RayScene&&) noexcept = default;
