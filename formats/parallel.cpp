@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -55,5 +56,9 @@ void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t
     tbb::parallel_for(size_t(0), ranges, [&](size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); });
 }
 #endif
+
+void by_one_thread(const std::function<void()>& body) {
+    tbb::task_arena(1).execute(body);
+}
 
 }  // namespace overlook

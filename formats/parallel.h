@@ -15,4 +15,7 @@ unsigned thread_count();
 // body must not throw.
 void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
 
+// Runs it so that libraries which it calls, and which share work among threads by themselves, have one thread there.
+void by_one_thread(const std::function<void()>& body);
+
 }  // namespace overlook

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <tuple>
 
+#include "formats/parallel.h"
+
 namespace overlook::rays {
 namespace {
 
@@ -181,14 +183,18 @@ Scene::~Scene() = default;
 Result<Scene> Scene::build(std::span<const Mesh> meshes, std::span<const Copy> copies, Layout layout,
                            Instructions instructions) {
     auto parts = std::make_unique<Parts>();
-    parts->device = rtcNewDevice(instructions == Instructions::best ? "threads=1" : "threads=1,isa=sse2,max_isa=sse2");
+    // Not by "threads=1", which would leave one thread to all of the program while the device is there.
+    by_one_thread([&] {
+        parts->device = rtcNewDevice(instructions == Instructions::best ? "" : "isa=sse2,max_isa=sse2");
+        if (!parts->device) return;
+        parts->scene = new_scene(parts->device);
+        if (layout == Layout::flattened)
+            parts->flatten(meshes, copies);
+        else
+            parts->instance(meshes, copies);
+        rtcCommitScene(parts->scene);
+    });
     if (!parts->device) return impossible("Embree cannot begin: {}", reason_of(rtcGetDeviceError(nullptr)));
-    parts->scene = new_scene(parts->device);
-    if (layout == Layout::flattened)
-        parts->flatten(meshes, copies);
-    else
-        parts->instance(meshes, copies);
-    rtcCommitScene(parts->scene);
     if (RTCError error = rtcGetDeviceError(parts->device); error != RTC_ERROR_NONE)
         return impossible("Embree cannot build {} copies of meshes: {}", copies.size(), reason_of(error));
     return Scene(std::move(parts));
