@@ -92,6 +92,14 @@ void Shards::remove_all(uint64_t count) const {
     if (folder_.empty()) return;
     std::error_code ignored;
     for (uint64_t index = 0; index < count; ++index) std::filesystem::remove(path_of(index), ignored);
+    // What writers of the same bake had begun when they were killed: ".KEY-INDEX.part.PROCESS.COUNT.tmp" (atomic_file.cpp).
+    const std::string own = fmt::format(".{:016x}-", key_);
+    std::vector<std::filesystem::path> unfinished;
+    for (std::filesystem::directory_iterator at(folder_, ignored), end; !ignored && at != end; at.increment(ignored)) {
+        std::string name = at->path().filename().string();
+        if (name.starts_with(own) && name.ends_with(".tmp")) unfinished.push_back(at->path());
+    }
+    for (const auto& path : unfinished) std::filesystem::remove(path, ignored);
     std::filesystem::remove(folder_, ignored);
 }
 
