@@ -1,16 +1,18 @@
 // bake-wang-ldi makes layered depth images: the same bytes whatever threads, goes on after kill -9, in parts; one line for bad
-// options.
+// options. They become points and pictures.
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "formats/wang_ldi.h"
 #include "tests/cli/run_command.h"
 #include "tests/formats/scratch_folder.h"
+#include "tools/bake/mesh/soup.h"
 
 namespace overlook::cli {
 namespace {
@@ -144,6 +146,90 @@ TEST(BakeWangImages, InPartsGivesTheSameBytes) {
     expect_done(ran);
     EXPECT_EQ(nlohmann::json::parse(ran.out)["images"]["baked"], 0);
     EXPECT_TRUE(text_of_file(folder / "a.ovl") == text_of_file(folder / "whole.ovl"));
+}
+
+// As the meshes' own reader gives them: positions, normals.
+mesh::Soup points_of(const std::string& path) {
+    std::string bytes = text_of_file(path);
+    auto soup = mesh::read_ply({std::as_bytes(std::span(bytes)), path, "", {}});
+    EXPECT_TRUE(soup) << soup.error().message;
+    return soup ? std::move(*soup) : mesh::Soup{};
+}
+
+TEST(BakeWangImages, PointsThatAreExportedAreTheSamplesOfAnImage) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "a.ovl", {"--light", "later"})));
+    auto file = container::Reader::open(folder / "a.ovl");
+    auto images = wang_ldi::ImageReader::open(*file);
+    ASSERT_TRUE(images);
+    const wang_ldi::ImageSet& set = images->set();
+    Words words{"baked", "export", folder / "a.ovl", "--tile", "2", "--level", "1", "-o", folder / "x.ply", "--json"};
+    Words one = words;
+    one.insert(one.end(), {"--direction", "1"});
+    Ran ran = run(one);
+    expect_done(ran);
+    auto ldi = images->read(index_of(set, {0, 2, 1, 1}));
+    ASSERT_TRUE(ldi);
+    mesh::Soup soup = points_of(folder / "x.ply");
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["points"], ldi->sample_count());
+    ASSERT_EQ(soup.positions.size(), ldi->sample_count());
+    ASSERT_EQ(soup.mesh.normals.size(), ldi->sample_count());
+    ASSERT_EQ(soup.mesh.colours.size(), ldi->sample_count());
+    double pixel_m = set.tile_m / set.levels[1].side_px;
+    for (uint32_t p = 0, s = 0; p + 1 < ldi->first.size(); ++p)
+        for (; s < ldi->first[p + 1]; ++s) {
+            EXPECT_DOUBLE_EQ(soup.positions[s].x, (p % ldi->side_px + 0.5) * pixel_m);
+            EXPECT_DOUBLE_EQ(soup.positions[s].y, (p / ldi->side_px + 0.5) * pixel_m);
+            EXPECT_DOUBLE_EQ(soup.positions[s].z, set.low_m + double(set.levels[1].height_step_m) * ldi->heights[s]);
+            EXPECT_NEAR(double(glm::length(soup.mesh.normals[s])), 1, 1e-5);
+            for (size_t c = 0; c < 3; ++c) EXPECT_EQ(soup.mesh.colours[s][c], ldi->palette[ldi->colours[s]][c]);
+        }
+    // Of all directions each place once.
+    ran = run(words);
+    expect_done(ran);
+    soup = points_of(folder / "x.ply");
+    std::set<std::array<double, 3>> places;
+    for (const glm::dvec3& at : soup.positions) places.insert({at.x, at.y, at.z});
+    EXPECT_EQ(places.size(), soup.positions.size());
+    EXPECT_GT(soup.positions.size(), ldi->sample_count());
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["directions"], set.direction_count);
+}
+
+TEST(BakeWangImages, PointsThatAreNotThereAreRefusedInOneLine) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "a.ovl")));
+    auto before = contents_of(folder.path());
+    auto expect = [&](const std::vector<std::string>& parts, const Words& more, const std::string& output = "x.ply") {
+        Words words{"baked", "export", folder / "a.ovl", "-o", folder / output};
+        words.insert(words.end(), more.begin(), more.end());
+        expect_refusal(run(words), 2, "baked export", parts);
+        EXPECT_EQ(contents_of(folder.path()), before);
+    };
+    expect({"a.ovl", "give --tile and --level"}, {"--tile", "0"});
+    expect({"a.ovl", "has tiles 0 to 2, --tile 3 is none"}, {"--tile", "3", "--level", "0"});
+    expect({"a.ovl", "--level 31 is none"}, {"--tile", "0", "--level", "31"});
+    expect({"a.ovl", "--direction 63 is none"}, {"--tile", "0", "--level", "0", "--direction", "63"});
+    expect({"a.ovl", "leave --error-m out"}, {"--tile", "0", "--level", "0", "--error-m", "1"});
+    expect({"a.ovl", "leave --alone out"}, {"--tile", "0", "--level", "0", "--alone"});
+    expect({"x.glb", "written as .ply"}, {"--tile", "0", "--level", "0"}, "x.glb");
+}
+
+TEST(BakeWangImages, ShowsItsTilesAsPictures) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "a.ovl", {"--border-images"})));
+    Ran ran = run({"baked", "info", folder / "a.ovl", "--sheet", folder / "sheet", "--json"});
+    expect_done(ran);
+    for (const char* name : {"tiles-above.png", "tiles-aside.png", "directions.png", "levels.png", "planting.png"})
+        EXPECT_GE(fs::file_size(folder / ("sheet/" + std::string(name))), 1000u) << name;
+    nlohmann::json images = nlohmann::json::parse(ran.out)["images"];
+    EXPECT_EQ(images["contexts"], 2);
+    uint64_t samples = 0;
+    EXPECT_EQ(read_ldis(folder / "a.ovl", samples), "");
+    EXPECT_EQ(images["samples"], samples);
+    expect_done(run({"baked", "export", folder / "a.ovl", "--tile", "0", "--level", "0", "--alone", "-o", folder / "x.ply"}));
 }
 
 TEST(BakeWangImages, RefusesOptionsThatMakeNoSenseInOneLine) {

@@ -9,6 +9,7 @@
 #include "formats/terrain.h"
 #include "tools/baked/info_discrete.h"
 #include "tools/baked/info_ground.h"
+#include "tools/baked/info_images.h"
 #include "tools/baked/verbs.h"
 
 namespace overlook::baked {
@@ -108,7 +109,7 @@ void print_mesh(const ordered_json& m) {
 }
 
 void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain,
-                const std::optional<wang_ldi::Ground>& ground) {
+                const std::optional<wang_ldi::Ground>& ground, const std::optional<wang_ldi::ImageReader>& images) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
@@ -136,6 +137,7 @@ void print_text(const ordered_json& json, const std::optional<discrete::Chain>& 
     if (json.contains("mesh")) print_mesh(json["mesh"]);
     if (chain) print_chain(*chain);
     if (ground) print_ground(*ground);
+    if (images) print_images(*images);
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
@@ -185,21 +187,29 @@ int info(const InfoArgs& args, const command::Common& common) {
         if (!common.json) chain = std::move(*read);
     }
     std::optional<wang_ldi::Ground> ground;
+    std::optional<wang_ldi::ImageReader> images;
     if (file->kind() == wang_ldi::kKind) {
         auto read = wang_ldi::read(*file);
         if (!read) return command::fail("baked info", read.error());
         json["ground"] = ordered_json::parse(ground_json(*read));
         ground = std::move(*read);
+        if (file->find(container::tag("WLDI"))) {
+            auto opened = wang_ldi::ImageReader::open(*file);
+            if (!opened) return command::fail("baked info", opened.error());
+            json["images"] = ordered_json::parse(images_json(*opened));
+            images = std::move(*opened);
+        }
     }
     if (!args.sheet.empty()) {
         if (!ground) return command::fail("baked info", no_sheet(args.file));
-        if (auto written = write_sheet(*ground, args.sheet); !written) return command::fail("baked info", written.error());
+        auto written = write_sheet(args.file, *ground, images ? &*images : nullptr, args.sheet);
+        if (!written) return command::fail("baked info", written.error());
     }
     json["provenance"] = provenance_json(*provenance);
     if (common.json)
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else
-        print_text(json, chain, ground);
+        print_text(json, chain, ground, images);
     return int(Exit::done);
 }
 

@@ -9,6 +9,7 @@
 #include "tools/bake/wang_ldi/planting_check.h"
 #include "tools/bake/wang_ldi/sheet.h"
 #include "tools/bake/wang_ldi/tile_sets.h"
+#include "tools/baked/info_images.h"
 
 namespace overlook::baked {
 namespace {
@@ -70,13 +71,21 @@ void print_ground(const wang_ldi::Ground& ground) {
     fmt::print("promise: {} tight radii overlap in any of {} neighbourhoods\n", overlaps.tight_overlaps, overlaps.neighbourhoods);
 }
 
-Result<void> write_sheet(const wang_ldi::Ground& ground, const std::string& folder) {
-    auto sheet = wang_ldi::sheet_of(ground, 1);
-    if (!sheet) return tl::unexpected(sheet.error());
+Result<void> write_sheet(const std::string& file, const wang_ldi::Ground& ground, const wang_ldi::ImageReader* images,
+                         const std::string& folder) {
+    auto made = wang_ldi::sheet_of(ground, 1);
+    if (!made) return tl::unexpected(made.error());
+    std::vector<NamedPicture> sheet;
+    for (wang_ldi::SheetPicture& page : *made) sheet.push_back({page.name, std::move(page.picture)});
+    if (images) {
+        auto of_images = image_sheet(file, *images, ground);
+        if (!of_images) return tl::unexpected(of_images.error());
+        for (NamedPicture& page : *of_images) sheet.push_back(std::move(page));
+    }
     std::error_code reason;
     std::filesystem::create_directories(folder, reason);
     if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
-    for (const wang_ldi::SheetPicture& page : *sheet) {
+    for (const NamedPicture& page : sheet) {
         auto png = png_bytes(page.picture);
         if (!png) return tl::unexpected(png.error());
         if (auto written = write_file((std::filesystem::path(folder) / page.name).string(), *png); !written) return written;

@@ -4,12 +4,14 @@
 #include <string>
 
 #include "formats/wang_ground.h"
+#include "formats/wang_ldi.h"
 
 namespace overlook::baked {
 
 std::string ground_json(const wang_ldi::Ground& ground);
 void print_ground(const wang_ldi::Ground& ground);
-// Pictures of it into a folder, which is made where there is none.
-Result<void> write_sheet(const wang_ldi::Ground& ground, const std::string& folder);
+// Pictures of it, and of its images if there are any, into a folder, which is made where there is none. file: for messages.
+Result<void> write_sheet(const std::string& file, const wang_ldi::Ground& ground, const wang_ldi::ImageReader* images,
+                         const std::string& folder);
 
 }  // namespace overlook::baked

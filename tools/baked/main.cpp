@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     CLI::App* info_verb = app.add_subcommand("info", "What is in a file: its sections, its promises, where it came from");
     info_verb->add_option("FILE", info.file, "A baked file")->required();
     info_verb->add_option("--sheet", info.sheet,
-                          "Of ground of Wang tiles: a folder for pictures of the set, its tilings and its planting");
+                          "Of ground of Wang tiles: a folder for pictures of the set, its tilings, its planting and its images");
 
     CLI::App* verify_verb = app.add_subcommand(
         "verify",
@@ -41,15 +41,25 @@ int main(int argc, char** argv) {
     diff_verb->add_option("A", diff.a, "A baked file")->required();
     diff_verb->add_option("B", diff.b, "Another")->required();
 
-    CLI::App* export_verb = app.add_subcommand("export", "Writes the triangles of one cut as a mesh (.ply, .glb)");
+    CLI::App* export_verb = app.add_subcommand(
+        "export", "Writes the triangles of one cut as a mesh (.ply, .glb), or the samples of one image as points (.ply)");
     export_verb->add_option("FILE", cut.file, "A baked file")->required();
     export_verb
         ->add_option("--error-m", cut.error_m,
                      "Greatest distance in metres between the cut and its source (of a terrain: vertical, to any sample; of a "
                      "chain of levels: to level 0)")
         ->check(command::number_in(0.0, 1e6));
-    export_verb->add_option("--level", cut.level, "Of a chain of levels: which, 0 is the finest")->check(CLI::Range(0, 31));
-    export_verb->add_option("-o,--output", cut.output, "The mesh: .ply or .glb")->required();
+    export_verb->add_option("--level", cut.level, "Of a chain of levels, or of images: which, 0 is the finest")
+        ->check(CLI::Range(0, 31));
+    export_verb->add_option("--tile", cut.tile, "Of images of Wang tiles: of which tile, from 0 on; its samples become points")
+        ->check(CLI::Range(0, 65535));
+    export_verb
+        ->add_option("--direction", cut.direction,
+                     "Of images: for eyes of which direction, 0 is north, clockwise; without it those of all directions, each "
+                     "place once")
+        ->check(CLI::Range(0, 63));
+    export_verb->add_flag("--alone", cut.is_alone, "Of images: those sampled without neighbours");
+    export_verb->add_option("-o,--output", cut.output, "The mesh: .ply or .glb; points: .ply")->required();
     export_verb
         ->add_option("--space", cut.space,
                      "local: x right, y up the raster, z height, in metres. raster: x = column, y = row of the source (north "

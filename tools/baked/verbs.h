@@ -26,7 +26,10 @@ struct DiffArgs {
 struct ExportArgs {
     std::string file;
     double error_m = -1;
-    int64_t level = -1;  // of a chain; -1: the coarsest within error_m
+    int64_t level = -1;      // of a chain; -1: the coarsest within error_m. Of images; -1: none was given
+    int64_t tile = -1;       // of images; -1: none was given
+    int64_t direction = -1;  // likewise; -1: all
+    bool is_alone = false;   // images without neighbours
     std::string output;
     std::string space = "local";
     std::string colour = "source";  // mesh: source, group, class
@@ -44,6 +47,7 @@ int verify_mesh(const VerifyArgs& args, const container::Reader& file, const com
 int verify_discrete(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
 int export_discrete(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 int export_terrain(const ExportArgs& args, const container::Reader& file, const command::Common& common);
+int export_points(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 int export_mesh(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 
 }  // namespace overlook::baked
