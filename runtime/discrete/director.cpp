@@ -4,12 +4,14 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace overlook::discrete {
 namespace {
 
 constexpr uint8_t kMostGrainDoublings = 20;
 constexpr double kUnevenShare = 0.01;  // of a frame's triangles, that even frames may draw more than odd ones or fewer
+constexpr double kCutShare = 0.25;     // of a thing's distance: an eye that went farther in a frame was put elsewhere
 constexpr double kMostTwice = 0.25;    // of what is divided, drawn on both sides
 
 uint32_t finer(const Transition& transition) {
@@ -57,16 +59,26 @@ int64_t Director::difference(uint32_t instance, const Transition& transition) co
     return int64_t(facts_.levels[finer(transition)].triangle_count) - int64_t(facts_.levels[coarser(transition)].triangle_count);
 }
 
-// As printed, all instances change their level with the frame; else those that begin go where fewer triangles are.
+// The eye's way since the frame before as the thing sees it, which may have moved itself.
+glm::dvec3 Director::way_past(uint32_t instance) const {
+    if (placed_before_.empty()) return way_m_;
+    return way_m_ - (placements_[instance].at(facts_.middle_m) - placed_before_[instance].at(facts_.middle_m));
+}
+
+// From so far apart it is another picture of the thing, and the level in use may be far too coarse.
+bool Director::is_cut(uint32_t instance) const {
+    const Placement& placement = placements_[instance];
+    double distance_m = glm::length(placement.at(facts_.middle_m) - eye_m_);
+    return glm::length(way_past(instance)) > kCutShare * std::max(distance_m, facts_.radius_m * placement.scale);
+}
+
 // A plane that shares a thing out, if one does it well.
 bool Director::divide(uint32_t instance) {
     const Placement& placement = placements_[instance];
     const Transition& transition = states_[instance].transition;
     const LevelFacts &fine = facts_.levels[finer(transition)], &coarse = facts_.levels[coarser(transition)];
-    glm::dvec3 way_m = way_m_;  // as the thing sees it
-    if (!placed_before_.empty()) way_m -= placement.at(facts_.middle_m) - placed_before_[instance].at(facts_.middle_m);
-    std::optional<Split> split =
-        split_of(fine.bunches, coarse.bunches, placement, facts_.middle_m, facts_.radius_m, eye_m_, way_m);
+    std::optional<Split> split = split_of(fine.bunches, coarse.bunches, placement, facts_.middle_m, facts_.radius_m, eye_m_,
+                                          way_past(instance));
     if (!split) return false;
     glm::dvec3 normal = turn_to_eye(*split, placement, eye_m_);
     std::vector<TriangleRun> runs;
@@ -127,13 +139,17 @@ void Director::suit_grain(State& state, const Placement& placement, const Select
 bool Director::advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
                        bool is_in_view) {
     Transition before = state.transition;
+    bool was_in_view = std::exchange(state.was_in_view, is_in_view);
     if (!state.is_known) {
         uint32_t level = selector.wanted(placement);
-        state = {{level, level, 0}, true, false, 0};
+        state.transition = {level, level, 0};
+        state.is_known = true;
         return false;
     }
-    uint32_t wanted = selector.wanted(placement, before.to);
-    if (!fades(options_.variant) || !is_in_view) {
+    bool knows_cuts = options_.variant == Variant::fsi && options_.remedies.knows_cuts;
+    bool has_cut = knows_cuts && is_cut(instance);
+    uint32_t wanted = has_cut ? selector.wanted(placement) : selector.wanted(placement, before.to);
+    if (!fades(options_.variant) || !is_in_view || has_cut || (knows_cuts && !was_in_view)) {
         state.transition = {wanted, wanted, 0};
         divided_.erase(instance);
         return wanted != before.to;

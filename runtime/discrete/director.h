@@ -91,6 +91,7 @@ class Director {
     struct State {
         Transition transition;
         bool is_known = false;  // has been looked at
+        bool was_in_view = false;
         bool is_odd = false;    // draws its finer level in odd frames
         uint8_t grain_doublings = 0;
     };
@@ -101,6 +102,8 @@ class Director {
     };
     bool advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
                  bool is_in_view);
+    glm::dvec3 way_past(uint32_t instance) const;
+    bool is_cut(uint32_t instance) const;
     void begin(const Selector& selector);
     void take_side(uint32_t instance);
     bool divide(uint32_t instance);

@@ -63,6 +63,9 @@ struct Remedies {
     // Only squares of the picture in which something may be under way are put together of two frames; the others are the newer
     // one. With has_wide_depth only.
     bool copies_rest = true;
+    // What was out of view, or what the eye came from elsewhere to (a cut, a teleport), has its level at once: there is nothing
+    // that could pop, and no older picture of it.
+    bool knows_cuts = true;
     double softness = 0.5;  // >= 0; share of the ramp in which one place appears; 0: at once
 
     bool operator==(const Remedies&) const = default;

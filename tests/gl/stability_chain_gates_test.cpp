@@ -89,6 +89,21 @@ TEST(ChainGates, OfMismatchedLevelsAreMissedByTheFormThatPopsAndWhereNothingChan
     EXPECT_TRUE(std::isinf(figure_of(resting, "still_flicker")));
 }
 
+// Ten places near and far, each seen for one frame.
+TEST(ChainGates, OfTeleportsAreMissedWhereLevelsTakeTheirTimeAfterACut) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    World world = world_of_chain("field", discrete::made::sphere_chain(12, 2), field_of(3, 3));
+    scene::Flight flight;
+    flight.step_s = 1.0 / 32;
+    flight.interpolation = scene::Interpolation::constant;
+    for (int i = 0; i < 10; ++i) flight.keys.push_back({i / 32.0, {0.1 * i, i % 2 == 0 ? -90.0 : -4.0, 1}, 0, 0, {}});
+    auto holes = [&](const char* method) {
+        return figure_of(run_case("S04", method, context->renderer(), world, flight), "hole_pixels");
+    };
+    EXPECT_EQ(holes("discrete:fsi@samples=4"), 0);
+    EXPECT_GT(holes("discrete:fsi@samples=4@know-cuts=0"), 0);
+}
+
 // Which of the two levels the newer frame shows makes no difference, to the last bit: where a red sphere and a blue cube are
 // mixed, where one stands before the background, and where both have just become one.
 TEST(ChainGates, OfAStillCameraAreKeptInMidChange) {

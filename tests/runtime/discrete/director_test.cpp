@@ -31,8 +31,11 @@ std::vector<Placement> field(int side) {
     return placements;
 }
 
+// Of a camera that is put elsewhere to see what follows: changes take their time all the same.
 Director director_of(Variant variant, const std::vector<Placement>& placements) {
-    return Director(facts_of(made::sphere_chain()), placements, defaults_of(variant));
+    FrameOptions options = defaults_of(variant);
+    options.remedies.knows_cuts = false;
+    return Director(facts_of(made::sphere_chain()), placements, options);
 }
 
 TEST(Director, BeginsWithWhatIsWanted) {
@@ -60,6 +63,53 @@ TEST(Director, LeavesOutWhatIsOutOfViewAndChangesItAtOnce) {
     EXPECT_TRUE(director.frame().items.empty());
     EXPECT_TRUE(director.transition(0).is_resting());
     EXPECT_LT(director.transition(0).to, far_level);
+}
+
+TEST(Director, TakesLevelsAtOnceAfterACut) {
+    std::vector<Placement> one(1);
+    for (bool knows_cuts : {true, false}) {
+        FrameOptions options = defaults_of(Variant::fsi);
+        options.remedies.knows_cuts = knows_cuts;
+        Director director(facts_of(made::sphere_chain()), one, options);
+        director.decide(camera_at(60), kStep_s);
+        EXPECT_LE(director.frame().error_px, 1);
+        director.decide(camera_at(5), kStep_s);
+        EXPECT_EQ(director.frame().error_px <= 1, knows_cuts);
+        EXPECT_EQ(director.frame().fading.empty(), knows_cuts);
+    }
+}
+
+// What comes into view again has never been seen as it was.
+TEST(Director, TakesLevelsAtOnceOfWhatComesIntoView) {
+    std::vector<Placement> one(1);
+    Director director(facts_of(made::sphere_chain()), one, defaults_of(Variant::fsi));
+    view::Camera away = camera_at(20);
+    away.heading_deg = 180;
+    director.decide(away, kStep_s);
+    director.decide(camera_at(16), kStep_s);
+    EXPECT_TRUE(director.frame().fading.empty());
+    EXPECT_LE(director.frame().error_px, 1);
+    EXPECT_EQ(director.frame().items.size(), 1u);
+}
+
+// A thing that is put elsewhere is seen as an eye that is.
+TEST(Director, TakesTheLevelAtOnceOfWhatIsPutElsewhere) {
+    std::vector<Placement> one(1);
+    Director director(facts_of(made::sphere_chain()), one, defaults_of(Variant::fsi));
+    director.decide(camera_at(60), kStep_s);
+    one[0].translation_m.y = -50;
+    director.place(one);
+    director.decide(camera_at(60), kStep_s);
+    EXPECT_TRUE(director.frame().fading.empty());
+    EXPECT_LE(director.frame().error_px, 1);
+    // And what comes on fast is not.
+    Director steady(facts_of(made::sphere_chain()), one, defaults_of(Variant::fsi));
+    uint32_t begun = 0;
+    for (double distance_m = 120; distance_m > 60; distance_m *= 0.97) {
+        steady.decide(camera_at(distance_m), kStep_s);
+        begun += uint32_t(!steady.frame().fading.empty());
+    }
+    EXPECT_GT(begun, 5u);
 }
 
 TEST(Director, ChangesHardAtOnceAndCountsIt) {
@@ -91,7 +141,7 @@ TEST(Director, DrawsTheTwoLevelsInTurn) {
     std::vector<Placement> one(1);
     for (Variant variant : {Variant::fsi, Variant::fsi_paper}) {
         FrameOptions options = defaults_of(variant);
-        options.remedies.splits_things = false;
+        options.remedies.splits_things = false, options.remedies.knows_cuts = false;
         Director director(facts_of(made::sphere_chain()), one, options);
         director.decide(camera_at(60), kStep_s);
         director.decide(camera_at(15), kStep_s);
@@ -172,7 +222,7 @@ TEST(Director, SharesTheWorkEvenlyBetweenFrames) {
     std::vector<Placement> placements = field(12);
     for (bool splits : {true, false}) {
         FrameOptions options = defaults_of(Variant::fsi);
-        options.remedies.splits_parities = splits;
+        options.remedies.splits_parities = splits, options.remedies.knows_cuts = false;
         Director director(facts_of(made::sphere_chain()), placements, options);
         director.decide(camera_at(75), kStep_s);
         view::Camera camera = camera_at(25);
@@ -235,7 +285,7 @@ TEST(Director, KeepsItsPromiseWhileLevelsChange) {
 TEST(Director, SuitsTheGrainToThePixel) {
     std::vector<Placement> one(1);
     FrameOptions options = defaults_of(Variant::fsi);
-    options.remedies.splits_things = false;
+    options.remedies.splits_things = false, options.remedies.knows_cuts = false;
     Director director(facts_of(made::sphere_chain()), one, options);
     director.set_grain_m({1e-4, 1e-4, 1e-4});
     director.decide(camera_at(60), kStep_s);
