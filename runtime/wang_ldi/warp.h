@@ -2,8 +2,8 @@
 // a square of pixels.
 //
 // Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 5.2; L. McMillan, Computing
-// Visibility Without Depth, 1995; J. Shade, S. Gortler, L. He, R. Szeliski, Layered Depth Images, 1998, section 5. It does not
-// shear tiles apart along a diagonal, nor fill holes, nor composite.
+// Visibility Without Depth, 1995; J. Shade, S. Gortler, L. He, R. Szeliski, Layered Depth Images, 1998, section 5. Whole fields,
+// whose tiles are sheared in halves and give way to each other: warp_field.h. Holes are not filled.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,20 @@ struct Warped {
     std::vector<float> depth_m;     // along the camera's axis, of what is shown; infinity where nothing is
 
     void clear(uint32_t width, uint32_t height);
+};
+
+// What was done for a picture. Of tiles that are found to lie outside of it, nothing is counted.
+struct WarpCounts {
+    uint64_t samples = 0;         // brought to where the camera sees them; texels of far tiles too
+    uint64_t samples_drawn = 0;   // those of them of which a pixel at least lies in the picture
+    uint64_t pixels_written = 0;  // of the picture, by all splats; by depth those too that something hid
+    uint64_t images_missing = 0;  // images that are shown and were not at hand
+
+    void add(const WarpCounts& other) {
+        samples += other.samples, samples_drawn += other.samples_drawn;
+        pixels_written += other.pixels_written, images_missing += other.images_missing;
+    }
+    bool operator==(const WarpCounts&) const = default;
 };
 
 // An image and where its tile lies: (x, y, z) of it at origin_m + (x, y, z + slope . (x, y)).

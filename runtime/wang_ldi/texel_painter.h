@@ -1,0 +1,120 @@
+// Tiles so far away that they are drawn as texels laid over the ground: single tiles, and blocks of many whose tiles are asked
+// for place by place.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "runtime/wang_ldi/far_colours.h"
+#include "runtime/wang_ldi/field.h"
+#include "runtime/wang_ldi/tile_painter.h"
+
+namespace overlook::wang_ldi {
+
+constexpr double kDiagonal = 1.4142135623730951;  // of a square: so wide a texel leaves no gap, whichever way it is turned
+
+// The texels of an item, [texels_px, texels_px] of it.
+template <Hiding hiding>
+class TexelPainter {
+  public:
+    TexelPainter(const Eye& eye, const Field& field, const FarColours& far, const Item& item, Brush<hiding>& brush)
+        : eye_(eye), field_(field), far_(far), item_(item), brush_(brush) {
+        rect_ = field.parts().placement->rect_of(item.i, item.j, int64_t(1) << item.tiles_log2);
+        texel_m_ = (rect_.high_m.x - rect_.low_m.x) / item.texels_px;
+        uint32_t tiles = 1u << item.tiles_log2;
+        in_tile_px_ = std::max(item.texels_px / tiles, 1u);
+    }
+
+    // From which tile a texel is, and what decides there between rungs and between directions.
+    struct Place {
+        glm::dvec2 at_m;
+        int64_t i = 0, j = 0;
+        uint32_t column = 0, row = 0;  // of in_tile_px along the tile's side
+
+        uint32_t decides_rung(uint32_t side_px) const {
+            return rung_threshold(Field::fade_number(i, j), column, row, side_px, side_px);
+        }
+        uint32_t decides_direction() const { return direction_threshold(Field::fade_number(i, j), column, row); }
+    };
+    Place place(uint32_t column, uint32_t row) const {
+        Place found{rect_.low_m + texel_m_ * (glm::dvec2(column, row) + 0.5), item_.i, item_.j, 0, 0};
+        // Halves of texels from the item's corner, so that a tile's number is whole.
+        uint64_t tiles = uint64_t(1) << item_.tiles_log2, across = uint64_t(2) * item_.texels_px;
+        uint64_t x = (uint64_t(2) * column + 1) * tiles, y = (uint64_t(2) * row + 1) * tiles;
+        found.i += int64_t(x / across), found.j += int64_t(y / across);
+        found.column = uint32_t(x % across * in_tile_px_ / across), found.row = uint32_t(y % across * in_tile_px_ / across);
+        return found;
+    }
+
+    void draw(const Place& place, uint32_t direction) {
+        std::optional<uint8_t> tile = tile_at(place);
+        if (!tile) return;
+        FarTexel texel = far_.at(*tile, direction);
+        if (texel.colour == 0) return;
+        double ground_m = field_.parts().placement->ground().height_m(place.at_m);
+        if (!std::isfinite(ground_m)) return;
+        glm::dvec3 at(place.at_m, ground_m + double(texel.height_m));
+        brush_.splat(eye_.seen(at - eye_.position_m), float(eye_.focal_px * kDiagonal * texel_m_), texel.colour);
+    }
+
+    // The whole item, of which nothing but texels is shown.
+    void draw_all(std::span<const Shown> shown, const glm::dvec2& eye_share) {
+        uint32_t side = item_.texels_px;
+        int64_t eye_column = cell_at(eye_share.x, side), eye_row = cell_at(eye_share.y, side);
+        for (uint32_t j = 0; j < side; ++j)
+            for (uint32_t i = 0, row = towards(j, eye_row, side); i < side; ++i) {
+                Place here = place(towards(i, eye_column, side), row);
+                uint32_t by_rung = here.decides_rung(in_tile_px_), by_direction = here.decides_direction();
+                for (const Shown& one : shown)
+                    if (is_drawn(one) && one.by_rung.contains(by_rung) && one.by_direction.contains(by_direction))
+                        draw(here, one.direction);
+            }
+    }
+
+  private:
+    bool is_drawn(const Shown& shown) const {
+        Stage stage = field_.ladder().rungs[shown.rung].stage;
+        return stage == Stage::texture || stage == Stage::colour;
+    }
+
+    // None where nothing is planted.
+    std::optional<uint8_t> tile_at(const Place& place) {
+        if (item_.tiles_log2 == 0) return item_.tile;
+        if (!is_known_ || place.i != known_i_ || place.j != known_j_) {
+            is_known_ = true, known_i_ = place.i, known_j_ = place.j;
+            bool is_planted = item_.is_planted_throughout || field_.parts().placement->is_planted(place.i, place.j);
+            known_ = is_planted ? std::optional(field_.parts().tiling->at(place.i, place.j)) : std::nullopt;
+        }
+        return known_;
+    }
+
+    const Eye& eye_;
+    const Field& field_;
+    const FarColours& far_;
+    const Item& item_;
+    Brush<hiding>& brush_;
+    Rect rect_;
+    double texel_m_ = 0;
+    uint32_t in_tile_px_ = 1;
+    bool is_known_ = false;  // the tile asked for last
+    int64_t known_i_ = 0, known_j_ = 0;
+    std::optional<uint8_t> known_;
+};
+
+// The texels of a tile that images of it give way to.
+template <Hiding hiding>
+class TexelColumns final : public Columns {
+  public:
+    TexelColumns(TexelPainter<hiding>& painter, uint32_t texels_px, uint32_t direction)
+        : painter_(painter), direction_(direction) {
+        side_px = texels_px;
+    }
+    void stand_on(const Plane&) override {}  // texels lie on the ground itself
+    void draw(uint32_t column, uint32_t row) override { painter_.draw(painter_.place(column, row), direction_); }
+
+  private:
+    TexelPainter<hiding>& painter_;
+    uint32_t direction_;
+};
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,128 @@
+#include "runtime/wang_ldi/warp_field.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "formats/parallel.h"
+#include "runtime/wang_ldi/in_picture.h"
+#include "runtime/wang_ldi/list_parts.h"
+#include "runtime/wang_ldi/texel_painter.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+template <Hiding hiding>
+class FieldWarper {
+  public:
+    FieldWarper(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
+                const FarColours* far, Warped& picture)
+        : eye_(camera),
+          bounds_(camera),
+          field_(field),
+          list_(list),
+          image_at_(image_at),
+          far_(far),
+          brush_(eye_, picture, counts_) {
+        for (const Level& level : field.parts().images->levels) highest_step_m_ = std::max(highest_step_m_, level.height_step_m);
+    }
+
+    void draw(const Item& item) {
+        double side_m = field_.parts().images->tile_m * double(int64_t(1) << item.tiles_log2);
+        glm::dvec2 corner_m = field_.parts().placement->rect_of(item.i, item.j).low_m;
+        if (!may_be_seen(item, corner_m, side_m)) return;
+        glm::dvec2 eye_share = (glm::dvec2(eye_.position_m) - corner_m) / side_m;
+        if (item.half_count == 0) {
+            if (far_ != nullptr && item.texels_px > 0)
+                TexelPainter<hiding>(eye_, field_, *far_, item, brush_).draw_all(list_.shown_of(item), eye_share);
+            return;
+        }
+        draw_tile(item, corner_m, eye_share);
+    }
+    const WarpCounts& counts() const { return counts_; }
+
+  private:
+    bool may_be_seen(const Item& item, const glm::dvec2& corner_m, double side_m) const {
+        double above_m = item.high_m + double(highest_step_m_);  // the highest sample may stand a step above
+        return bounds_.may_hold({corner_m, item.low_m}, {corner_m + side_m, above_m},
+                                eye_.focal_px * widest_splat_m(field_, list_, item));
+    }
+
+    void draw_tile(const Item& item, const glm::dvec2& corner_m, const glm::dvec2& eye_share) {
+        const ImageSet& images = *field_.parts().images;
+        std::vector<std::unique_ptr<Columns>> owners;
+        std::unique_ptr<TexelPainter<hiding>> texels;
+        for (const Shown& shown : list_.shown_of(item)) {
+            const Rung& rung = field_.ladder().rungs[shown.rung];
+            if (rung.stage == Stage::ldi) {
+                const Ldi* ldi = image_at_(field_.image_of(item, shown));
+                counts_.images_missing += ldi == nullptr;
+                if (ldi == nullptr) continue;
+                owners.push_back(std::make_unique<ImageColumns<hiding>>(eye_, images, *ldi, rung.level, 1.0f, corner_m, brush_));
+            } else if (rung.stage != Stage::geometry && far_ != nullptr) {
+                if (!texels) texels = std::make_unique<TexelPainter<hiding>>(eye_, field_, *far_, item, brush_);
+                owners.push_back(std::make_unique<TexelColumns<hiding>>(*texels, item.texels_px, shown.direction));
+            } else {
+                continue;
+            }
+            owners.back()->by_rung = shown.by_rung, owners.back()->by_direction = shown.by_direction;
+        }
+        if (owners.empty()) return;
+        std::vector<Columns*> all;
+        for (auto& owner : owners) all.push_back(owner.get());
+        TilePlaces places{Field::fade_number(item.i, item.j), item.coarser_px, eye_share};
+        for (const Half& half : list_.halves_of(item)) {
+            for (Columns* columns : all) columns->stand_on(half.plane);
+            Piece piece{half.column, half.row, 1u << item.pieces_log2, false, half.half, half.diagonal};
+            paint_piece(places, piece, all);
+        }
+    }
+
+    Eye eye_;
+    PictureBounds bounds_;
+    const Field& field_;
+    const FieldList& list_;
+    const ImageAt& image_at_;
+    const FarColours* far_;
+    WarpCounts counts_;
+    Brush<hiding> brush_;
+    float highest_step_m_ = 0;
+};
+
+// Of two pictures the one whose items come later in the list over the other.
+template <Hiding hiding>
+void lay_over(const Warped& later, Warped& picture) {
+    parallel_ranges(picture.colours.size(), size_t(1) << 15, [&](size_t begin, size_t end) {
+        for (size_t p = begin; p < end; ++p) {
+            bool is_seen = hiding == Hiding::by_depth ? later.depth_m[p] < picture.depth_m[p] : later.colours[p] != 0;
+            if (is_seen) picture.colours[p] = later.colours[p], picture.depth_m[p] = later.depth_m[p];
+        }
+    });
+}
+
+template <Hiding hiding>
+WarpCounts warp_list(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
+                     const FarColours* far, Warped& picture) {
+    std::vector<size_t> ends = parts_of(field, list, thread_count());
+    std::vector<Warped> others(ends.size() - 1);
+    std::vector<WarpCounts> counts(ends.size());
+    parallel_ranges(ends.size(), 1, [&](size_t part, size_t) {
+        if (part > 0) others[part - 1].clear(picture.width_px, picture.height_px);
+        FieldWarper<hiding> warper(camera, field, list, image_at, far, part > 0 ? others[part - 1] : picture);
+        for (size_t i = part > 0 ? ends[part - 1] : 0; i < ends[part]; ++i) warper.draw(list.items[i]);
+        counts[part] = warper.counts();
+    });
+    WarpCounts sum;
+    for (const WarpCounts& part : counts) sum.add(part);
+    for (const Warped& other : others) lay_over<hiding>(other, picture);
+    return sum;
+}
+
+}  // namespace
+
+WarpCounts warp_field(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
+                      Hiding hiding, Warped& picture, const FarColours* far) {
+    if (hiding == Hiding::by_order) return warp_list<Hiding::by_order>(camera, field, list, image_at, far, picture);
+    return warp_list<Hiding::by_depth>(camera, field, list, image_at, far, picture);
+}
+
+}  // namespace overlook::wang_ldi
