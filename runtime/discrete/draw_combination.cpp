@@ -100,8 +100,8 @@ Result<gl::Program> Combiner::make_program(bool is_one, bool moves) const {
                           define("HAS_LONG_RAMPS", remedies.has_long_ramps && remedies.weighs_by_phase) +
                           define("HAS_WIDE_IDS", remedies.has_wide_ids) + define("HAS_WIDE_DEPTH", remedies.has_wide_depth);
     std::string vertex = "#version 450 core\n" + defines + shaders::kTileVertex;
-    std::string fragment = "#version 450 core\n" + defines + shaders::kBuffers + shaders::kCombinationInputs +
-                           shaders::kCombinationParts + shaders::kCombinationMain;
+    std::string fragment = "#version 450 core\n" + defines + shaders::kBuffers + shaders::kTwoFrames +
+                           shaders::kCombinationInputs + shaders::kCombinationParts + shaders::kCombinationMain;
     return gl::Program::make("combination", {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 

@@ -42,15 +42,19 @@ void main() {
 }
 )";
 
-// KEEPS_HIDDEN, SEARCHES, WEIGHS_BY_PHASE, HAS_LONG_RAMPS, HAS_WIDE_IDS, HAS_WIDE_DEPTH: the remedies. IS_ONE: each square has
-// one entry, which comes with it. MOVES: things have their own matrices; else all have the camera's.
-inline constexpr char kCombinationInputs[] = R"(
+// Both frames' buffers; Picture and Numbers: kinds of samplers, as in kBuffers.
+inline constexpr char kTwoFrames[] = R"(
 layout(binding = 0) uniform Picture new_colour;
 layout(binding = 1) uniform Numbers new_ids;
 layout(binding = 2) uniform Picture new_depth;
 layout(binding = 3) uniform Picture old_colour;
 layout(binding = 4) uniform Numbers old_ids;
 layout(binding = 5) uniform Picture old_depth;
+)";
+
+// KEEPS_HIDDEN, SEARCHES, WEIGHS_BY_PHASE, HAS_LONG_RAMPS, HAS_WIDE_IDS, HAS_WIDE_DEPTH: the remedies. IS_ONE: each square has
+// one entry, which comes with it. MOVES: things have their own matrices; else all have the camera's.
+inline constexpr char kCombinationInputs[] = R"(
 uniform mat4 camera_new_from_old;
 uniform float softness;
 flat in uvec2 listed;

@@ -22,6 +22,20 @@ void visit_sections(std::span<std::byte> file, const Visit& visit) {
     }
 }
 
+// Whether no section says that it has more raw bytes than time is for.
+inline bool has_small_sections(std::span<std::byte> file) {
+    constexpr uint64_t kMostRawBytes = 1 << 20;
+    bool small = true;
+    visit_sections(file, [&](size_t entry, Tag, std::span<std::byte>) {
+        if (load_le<uint64_t>(file, entry + entry_at::raw_bytes) > kMostRawBytes) small = false;
+    });
+    return small;
+}
+
+inline void require(bool holds) {
+    if (!holds) __builtin_trap();
+}
+
 // Magic, version, length, and the checksums of sections and head.
 inline void mend(std::span<std::byte> file) {
     visit_sections(file, [&](size_t entry, Tag, std::span<std::byte> bytes) {

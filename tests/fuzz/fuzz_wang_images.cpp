@@ -10,16 +10,9 @@ namespace {
 
 using namespace overlook;
 using namespace overlook::container;
+using fuzz::require;
 
 constexpr uint64_t kMostRawBytes = 1 << 20;
-
-bool is_small(std::span<std::byte> file) {
-    bool small = true;
-    fuzz::visit_sections(file, [&](size_t entry, Tag, std::span<std::byte>) {
-        if (load_le<uint64_t>(file, entry + entry_at::raw_bytes) > kMostRawBytes) small = false;
-    });
-    return small;
-}
 
 // Entries stand after a head whose length is not fixed: their checksums are mended by mend_images below.
 constexpr fuzz::Blocks kBlocks{container::tag("WANG"), 0, 0, 64, 0, 0, 0, nullptr};
@@ -39,10 +32,6 @@ void mend_images(std::span<std::byte> file) {
         if (offset > images.size() || stored > images.size() - offset) continue;
         store_le<uint64_t>(directory, at + wang_ldi::ldi_at::checksum, checksum_of(images.subspan(size_t(offset), stored)));
     }
-}
-
-void require(bool holds) {
-    if (!holds) __builtin_trap();
 }
 
 void read_all(std::span<const std::byte> bytes) {
@@ -68,7 +57,7 @@ void read_all(std::span<const std::byte> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::vector<std::byte> given(size);
     for (size_t i = 0; i < size; ++i) given[i] = std::byte(data[i]);
-    if (given.size() >= kFirstSectionOffset && is_small(given)) mend_images(given);
-    fuzz::read_both(given, kBlocks, is_small, read_all);
+    if (given.size() >= kFirstSectionOffset && fuzz::has_small_sections(given)) mend_images(given);
+    fuzz::read_both(given, kBlocks, fuzz::has_small_sections, read_all);
     return 0;
 }

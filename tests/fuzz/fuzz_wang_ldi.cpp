@@ -12,23 +12,10 @@ namespace {
 
 using namespace overlook;
 using namespace overlook::container;
-
-constexpr uint64_t kMostRawBytes = 1 << 20;
-
-bool is_small(std::span<std::byte> file) {
-    bool small = true;
-    fuzz::visit_sections(file, [&](size_t entry, Tag, std::span<std::byte>) {
-        if (load_le<uint64_t>(file, entry + entry_at::raw_bytes) > kMostRawBytes) small = false;
-    });
-    return small;
-}
+using fuzz::require;
 
 // There is no directory of blocks: nothing more to mend than the kind.
 constexpr fuzz::Blocks kBlocks{wang_ldi::kKind, 0, 0, 64, 0, 0, 0, nullptr};
-
-void require(bool holds) {
-    if (!holds) __builtin_trap();
-}
 
 void use(const wang_ldi::Ground& ground) {
     require(!wang_ldi::fault_of_set(ground.set) && !wang_ldi::fault_of_models(ground.planting) &&
@@ -55,6 +42,6 @@ void read_all(std::span<const std::byte> bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    fuzz::read_both({reinterpret_cast<const std::byte*>(data), size}, kBlocks, is_small, read_all);
+    fuzz::read_both({reinterpret_cast<const std::byte*>(data), size}, kBlocks, fuzz::has_small_sections, read_all);
     return 0;
 }

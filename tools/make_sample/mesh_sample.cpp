@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <span>
-#include <system_error>
 
-#include "formats/atomic_file.h"
 #include "tools/bake/caveclod/groups.h"
 #include "tools/make_sample/flight_lift.h"
+#include "tools/make_sample/sample_folder.h"
 
 namespace overlook::sample {
 namespace {
@@ -81,9 +79,8 @@ std::string mtl_text(const mesh::Mesh& mesh) {
 Result<MeshSampleReport> write_mesh_sample(const MeshSample& sample, const std::string& folder) {
     Result<caveclod::Groups> groups = caveclod::find_groups(sample.mesh, {});
     if (!groups) return tl::unexpected(groups.error());
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
 
     MeshSampleReport report;
     report.position_count = sample.mesh.positions_m.size();
@@ -91,21 +88,17 @@ Result<MeshSampleReport> write_mesh_sample(const MeshSample& sample, const std::
     report.group_count = groups->group_surface.size();
     report.packed_count = groups->packed_count;
     report.dense_population = groups->dense_population;
-    auto write = [&](const std::string& name, std::span<const std::byte> bytes) -> Result<void> {
-        report.files.push_back((std::filesystem::path(folder) / name).string());
-        return write_file(report.files.back(), bytes);
-    };
     std::vector<std::pair<std::string, std::string>> texts = {{sample.name + ".obj", obj_text(sample.mesh, sample.name + ".mtl")},
                                                               {sample.name + ".mtl", mtl_text(sample.mesh)},
                                                               {"recipe.toml", sample.recipe},
                                                               {"scene.json", scene::json_from_scene(scene_of(sample.name))}};
     for (size_t i = 0; i < sample.flights.size(); ++i)
         texts.emplace_back(fmt::format("flight-{}.json", "abcd"[i]), scene::json_from_flight(sample.flights[i]));
-    for (const auto& [name, text] : texts)
-        if (Result<void> written = write(name, std::as_bytes(std::span(text))); !written) return tl::unexpected(written.error());
+    if (Result<void> written = made->write(texts); !written) return tl::unexpected(written.error());
     for (const mesh::Surface& surface : sample.mesh.surfaces)
-        if (Result<void> written = write(surface.texture, std::as_bytes(std::span(surface.texture_bytes))); !written)
+        if (Result<void> written = made->write(surface.texture, std::as_bytes(std::span(surface.texture_bytes))); !written)
             return tl::unexpected(written.error());
+    report.files = made->files();
     return report;
 }
 

@@ -1,14 +1,12 @@
 #include "tools/make_sample/sample_dem.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 
-#include "formats/atomic_file.h"
 #include "tools/make_sample/geotiff.h"
 #include "tools/make_sample/noise.h"
 #include "tools/make_sample/sample_flight.h"
+#include "tools/make_sample/sample_folder.h"
 
 namespace overlook::sample {
 namespace {
@@ -57,9 +55,8 @@ uint64_t dig_voids(std::vector<float>& samples, uint32_t side, uint32_t count, u
 
 Result<DemReport> make_dem(const DemOptions& options, const std::string& folder) {
     if (Result<void> fits = check(options); !fits) return tl::unexpected(fits.error());
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
 
     Landscape landscape = make_landscape(options.landscape);
     DemReport report;
@@ -75,16 +72,11 @@ Result<DemReport> make_dem(const DemOptions& options, const std::string& folder)
     std::optional<int> nodata;
     if (options.void_count > 0) nodata = kNodata;
     std::vector<std::byte> tiff = geotiff_bytes(landscape.height_m, landscape.side, landscape.side, placement, nodata);
-    auto path_of = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
-    if (Result<void> written = write_file(path_of("dem.tif"), tiff); !written) return tl::unexpected(written.error());
-    report.files.push_back(path_of("dem.tif"));
-    for (const auto& [name, text] :
-         {std::pair("recipe.toml", recipe_of(options)), std::pair("scene.json", scene::json_from_scene(sample_scene())),
-          std::pair("flight.json", flight)}) {
-        if (Result<void> written = write_file(path_of(name), std::string_view(text)); !written)
-            return tl::unexpected(written.error());
-        report.files.push_back(path_of(name));
-    }
+    if (Result<void> written = made->write("dem.tif", tiff); !written) return tl::unexpected(written.error());
+    std::pair<std::string, std::string> texts[] = {
+        {"recipe.toml", recipe_of(options)}, {"scene.json", scene::json_from_scene(sample_scene())}, {"flight.json", flight}};
+    if (Result<void> written = made->write(texts); !written) return tl::unexpected(written.error());
+    report.files = made->files();
     return report;
 }
 

@@ -1,15 +1,13 @@
 #include "tools/make_sample/sample_instances.h"
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <random>
 #include <span>
-#include <system_error>
 
-#include "formats/atomic_file.h"
 #include "formats/scene.h"
 #include "tools/make_sample/glb.h"
+#include "tools/make_sample/sample_folder.h"
 #include "tools/make_sample/shapes.h"
 #include "tools/make_sample/tree.h"
 #include "tools/make_sample/windmill.h"
@@ -147,9 +145,8 @@ std::string readme_of(const Kind& kind) {
 
 Result<std::vector<std::string>> make_instances(const std::string& name, const InstancesOptions& options,
                                                 const std::string& folder) {
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
     const Kind& kind = kind_of(name);
     std::vector<std::pair<std::string, std::string>> files;
     for (int level = 0; level < kind.levels; ++level) {
@@ -166,13 +163,8 @@ Result<std::vector<std::string>> make_instances(const std::string& name, const I
     files.emplace_back("scene.json", scene_text(kind, options, options.count));
     files.emplace_back("flight.json", scene::json_from_flight(flight_of(kind, options.count)));
     files.emplace_back("README.md", readme_of(kind));
-    std::vector<std::string> paths;
-    for (const auto& [file, text] : files) {
-        paths.push_back((std::filesystem::path(folder) / file).string());
-        if (Result<void> written = write_file(paths.back(), std::string_view(text)); !written)
-            return tl::unexpected(written.error());
-    }
-    return paths;
+    if (Result<void> written = made->write(files); !written) return tl::unexpected(written.error());
+    return made->files();
 }
 
 }  // namespace overlook::sample

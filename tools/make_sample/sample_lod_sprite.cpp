@@ -1,14 +1,12 @@
 #include "tools/make_sample/sample_lod_sprite.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <span>
-#include <system_error>
 
-#include "formats/atomic_file.h"
 #include "tools/bake/relief.h"
 #include "tools/make_sample/geotiff.h"
 #include "tools/make_sample/sample_flight.h"
+#include "tools/make_sample/sample_folder.h"
 
 namespace overlook::sample {
 namespace {
@@ -85,9 +83,8 @@ scene::Flight lod_sprite_flight() {
 Result<LodSpriteReport> make_lod_sprite(const LodSpriteOptions& options, const std::string& folder) {
     if (options.side < kLeastSide || options.side > kGreatestSide)
         return bad_command("--size {} is outside {}..{}", options.side, kLeastSide, kGreatestSide);
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
 
     LandscapeOptions of_land = lod_sprite_landscape(options);
     Landscape landscape = make_landscape(of_land);
@@ -110,10 +107,9 @@ Result<LodSpriteReport> make_lod_sprite(const LodSpriteOptions& options, const s
                                                                                    {"scene.json", bytes_of(scene)},
                                                                                    {"flight.json", bytes_of(flight)},
                                                                                    {"run.json", bytes_of(run)}}) {
-        std::string path = (std::filesystem::path(folder) / name).string();
-        if (Result<void> written = write_file(path, bytes); !written) return tl::unexpected(written.error());
-        report.files.push_back(path);
+        if (Result<void> written = made->write(name, bytes); !written) return tl::unexpected(written.error());
     }
+    report.files = made->files();
     return report;
 }
 

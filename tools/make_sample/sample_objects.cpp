@@ -1,14 +1,12 @@
 #include "tools/make_sample/sample_objects.h"
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
 #include <iterator>
 #include <numbers>
-#include <system_error>
 
-#include "formats/atomic_file.h"
+#include "tools/make_sample/sample_folder.h"
 
 namespace overlook::sample {
 namespace {
@@ -173,23 +171,19 @@ scene::Flight masts_flight() {
 }
 
 Result<std::vector<std::string>> make_object(const std::string& name, const std::string& folder) {
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
     bool is_vase = name == "vase";
     mesh::Mesh mesh = is_vase ? vase_mesh() : masts_mesh();
     scene::Scene scene;
     scene.layers.push_back({name + ".ovl", {}, {}, "caveclod", "", {}});
-    std::vector<std::string> paths;
-    for (const auto& [file, text] :
-         {std::pair(name + ".obj", obj_text_of(mesh, name)), std::pair(name + ".mtl", mtl_text_of(mesh)),
-          std::pair(std::string("scene.json"), scene::json_from_scene(scene)),
-          std::pair(std::string("flight.json"), scene::json_from_flight(is_vase ? vase_flight() : masts_flight()))}) {
-        paths.push_back((std::filesystem::path(folder) / file).string());
-        if (Result<void> written = write_file(paths.back(), std::string_view(text)); !written)
-            return tl::unexpected(written.error());
-    }
-    return paths;
+    std::pair<std::string, std::string> files[] = {
+        {name + ".obj", obj_text_of(mesh, name)},
+        {name + ".mtl", mtl_text_of(mesh)},
+        {"scene.json", scene::json_from_scene(scene)},
+        {"flight.json", scene::json_from_flight(is_vase ? vase_flight() : masts_flight())}};
+    if (Result<void> written = made->write(files); !written) return tl::unexpected(written.error());
+    return made->files();
 }
 
 }  // namespace overlook::sample

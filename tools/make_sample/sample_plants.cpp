@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <iterator>
-#include <system_error>
 
-#include "formats/atomic_file.h"
 #include "tools/make_sample/glb.h"
 #include "tools/make_sample/meadow.h"
 #include "tools/make_sample/noise.h"
 #include "tools/make_sample/plant_field.h"
+#include "tools/make_sample/sample_folder.h"
 #include "tools/make_sample/sunflower.h"
 
 namespace overlook::sample {
@@ -123,9 +121,8 @@ Result<std::vector<std::string>> make_plants(const std::string& name, const Plan
     PlantField field = plant_field(*set, options.count, options.seed);
     Result<GlbNode> hills = hills_of(field, name == "sunflowers" ? 0.5 : 0.95, options.seed);
     if (!hills) return tl::unexpected(hills.error());
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
 
     std::vector<std::pair<std::string, std::string>> files;
     for (const Plant& plant : set->plants)
@@ -136,13 +133,8 @@ Result<std::vector<std::string>> make_plants(const std::string& name, const Plan
     files.emplace_back("scene.json", scene_of_field(*set, field));
     files.emplace_back("flight.json", scene::json_from_flight(flight_of_field(field, name == "sunflowers" ? 1.75 : 0.8)));
     files.emplace_back("README.md", readme_of(name, *set, options.count));
-    std::vector<std::string> paths;
-    for (const auto& [file, text] : files) {
-        paths.push_back((std::filesystem::path(folder) / file).string());
-        if (Result<void> written = write_file(paths.back(), std::string_view(text)); !written)
-            return tl::unexpected(written.error());
-    }
-    return paths;
+    if (Result<void> written = made->write(files); !written) return tl::unexpected(written.error());
+    return made->files();
 }
 
 }  // namespace overlook::sample

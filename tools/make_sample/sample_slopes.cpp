@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
-#include <system_error>
 
-#include "formats/atomic_file.h"
 #include "tools/make_sample/geotiff.h"
+#include "tools/make_sample/sample_folder.h"
 
 namespace overlook::sample {
 namespace {
@@ -40,9 +38,8 @@ scene::Flight slopes_flight() {
 }
 
 Result<std::vector<std::string>> make_slopes(const std::string& folder) {
-    std::error_code reason;
-    std::filesystem::create_directories(folder, reason);
-    if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());
+    Result<SampleFolder> made = SampleFolder::make(folder);
+    if (!made) return tl::unexpected(made.error());
 
     std::vector<float> samples;
     for (uint32_t row = 0; row < kSlopesSide; ++row)
@@ -57,11 +54,9 @@ Result<std::vector<std::string>> make_slopes(const std::string& folder) {
     scene.layers.push_back({"slopes.ovl", {}, {}, "terrain", "", {}});
     std::string text = scene::json_from_scene(scene);
 
-    auto path_of = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
-    if (Result<void> written = write_file(path_of("dem.tif"), tiff); !written) return tl::unexpected(written.error());
-    if (Result<void> written = write_file(path_of("scene.json"), std::string_view(text)); !written)
-        return tl::unexpected(written.error());
-    return std::vector<std::string>{path_of("dem.tif"), path_of("scene.json")};
+    if (Result<void> written = made->write("dem.tif", tiff); !written) return tl::unexpected(written.error());
+    if (Result<void> written = made->write("scene.json", text); !written) return tl::unexpected(written.error());
+    return made->files();
 }
 
 }  // namespace overlook::sample

@@ -29,24 +29,6 @@ struct Box {
     double size_m() const { return glm::length(high_m - low_m); }
 };
 
-// Of a shape the faces whose mark is 0.
-Shape without(const Shape& shape, const std::vector<uint8_t>& is_gone) {
-    Shape rest;
-    std::vector<uint32_t> number(shape.vertices.size(), ~0u);
-    for (size_t f = 0; f < shape.faces.size(); ++f) {
-        if (is_gone[f] != 0) continue;
-        std::array<uint32_t, 3> face{};
-        for (size_t c = 0; c < 3; ++c) {
-            uint32_t v = shape.faces[f][c];
-            if (number[v] == ~0u) number[v] = uint32_t(rest.vertices.size()), rest.vertices.push_back(shape.vertices[v]);
-            face[c] = number[v];
-        }
-        rest.faces.push_back(face);
-        rest.face_surface.push_back(shape.face_surface[f]);
-    }
-    return rest;
-}
-
 bool is_within(const Shape& shape, size_t face, const CardPlane& plane, double distance_m) {
     return std::all_of(shape.faces[face].begin(), shape.faces[face].end(), [&](uint32_t v) {
         return std::abs(glm::dot(shape.vertices[v].at_m - plane.middle_m, plane.normal)) <= distance_m;
@@ -144,7 +126,7 @@ void BillboardMaker::add_covering(const Part& part, const Shape& cut, double dis
     std::vector<uint8_t> is_gone;
     for (uint32_t component : of_cut)
         is_gone.push_back(component < components.count && covering.is_covered[component] != 0 && !covering.planes.empty());
-    plan.rest.add(without(cut, is_gone));
+    plan.rest.add(cut.without(is_gone));
 }
 
 BillboardPlan BillboardMaker::cloud(double distance_m) const {

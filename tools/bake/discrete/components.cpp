@@ -67,20 +67,7 @@ Shape rest_of(const Shape& shape, const std::vector<Component>& components) {
     std::vector<uint8_t> is_gone(shape.faces.size(), 0);
     for (const Component& component : components)
         for (uint32_t f : component.faces) is_gone[f] = component.is_gone;
-    std::vector<uint32_t> number(shape.vertices.size(), ~0u);
-    Shape rest;
-    for (uint32_t f = 0; f < shape.faces.size(); ++f) {
-        if (is_gone[f] != 0) continue;
-        std::array<uint32_t, 3> face{};
-        for (size_t c = 0; c < 3; ++c) {
-            uint32_t v = shape.faces[f][c];
-            if (number[v] == ~0u) number[v] = uint32_t(rest.vertices.size()), rest.vertices.push_back(shape.vertices[v]);
-            face[c] = number[v];
-        }
-        rest.faces.push_back(face);
-        rest.face_surface.push_back(shape.face_surface[f]);
-    }
-    return rest;
+    return shape.without(is_gone);
 }
 
 }  // namespace

@@ -32,6 +32,23 @@ double reach_m(const Chain& chain, const Part& part, double radius_m) {
 
 }  // namespace
 
+Shape Shape::without(std::span<const uint8_t> is_gone) const {
+    Shape rest;
+    std::vector<uint32_t> number(vertices.size(), ~0u);
+    for (size_t f = 0; f < faces.size(); ++f) {
+        if (is_gone[f] != 0) continue;
+        std::array<uint32_t, 3> face{};
+        for (size_t c = 0; c < 3; ++c) {
+            uint32_t v = faces[f][c];
+            if (number[v] == ~0u) number[v] = uint32_t(rest.vertices.size()), rest.vertices.push_back(vertices[v]);
+            face[c] = number[v];
+        }
+        rest.faces.push_back(face);
+        rest.face_surface.push_back(face_surface[f]);
+    }
+    return rest;
+}
+
 void Shape::add(const Shape& other) {
     auto first = uint32_t(vertices.size());
     vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());

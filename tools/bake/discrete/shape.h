@@ -31,6 +31,8 @@ struct Shape {
     std::vector<caveclod::Triangle> triangles_of(uint32_t part) const;
     std::vector<caveclod::Triangle> triangles() const;
     double area_m2() const;
+    // The faces whose mark is 0, with the vertices that they use. is_gone: [F].
+    Shape without(std::span<const uint8_t> is_gone) const;
 };
 
 // Where the levels' numbers stand: 16 bits over all that is in them.

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "runtime/discrete/draw_combination_shaders.h"
 #include "runtime/discrete/draw_frames.h"
 #include "runtime/gl/program.h"
 #include "runtime/gl/surface_shaders.h"
@@ -14,13 +15,11 @@ namespace {
 constexpr int kRepeats = 15;
 constexpr uint32_t kChanging = kBefore + kFading / 2;  // a frame in which all of the arc is half-way
 
-constexpr char kCopy[] = R"(#version 450 core
-layout(binding = 0) uniform sampler2D new_colour;
-layout(binding = 1) uniform usampler2D new_ids;
-layout(binding = 2) uniform sampler2D new_depth;
-layout(binding = 3) uniform sampler2D old_colour;
-layout(binding = 4) uniform usampler2D old_ids;
-layout(binding = 5) uniform sampler2D old_depth;
+constexpr char kCopyHead[] = R"(#version 450 core
+#define Picture sampler2D
+#define Numbers usampler2D
+)";
+constexpr char kCopy[] = R"(
 layout(location = 0) out vec4 colour;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -52,7 +51,8 @@ Result<Copies> make_copies(uint32_t side_px) {
                 glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
                 into->emplace_back(id);
             }
-    auto pass = gl::Program::make("copy", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, kCopy}});
+    std::string fragment = std::string(kCopyHead) + discrete::shaders::kTwoFrames + kCopy;
+    auto pass = gl::Program::make("copy", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, fragment}});
     if (!pass) return tl::unexpected(pass.error());
     made.pass = std::move(*pass);
     return made;
