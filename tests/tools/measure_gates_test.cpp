@@ -105,7 +105,7 @@ struct Judged {
         Frame truth = plane_frame(camera), test = truth;
         spoil(test);
         EXPECT_TRUE(judge_picture(
-            test, truth, 0, [&](uint32_t) { return Result<Frame>(truth); }, record.numbers));
+            test, truth, HoleRule{}, [&](uint32_t) { return Result<Frame>(truth); }, record.numbers));
         judge_e(test, truth, record, worst_e);
         judge_w(motion_between(before, truth), before, test, before, truth, record, worst_w);
     }

@@ -251,6 +251,24 @@ TEST(Holes, SkylineMayStandAsMuchLowerAsWasPromised) {
     }
 }
 
+// Where a near thing's outline stands before a far one both may draw back a little, and the sky looks through; not elsewhere.
+TEST(Holes, ThingsBeforeThingsHaveBordersToo) {
+    Frame reference = ridge_frame(30);
+    for (uint32_t x : {10u, 28u, 29u, 30u, 31u, 32u, 50u}) {
+        Frame test = reference;
+        show_background(test, x, 20);
+        bool is_at_step = x >= 28 && x <= 31;
+        EXPECT_EQ(hole_pixels(test, reference, 1, {0, nullptr, true}).count, is_at_step ? 0u : 1u) << x;
+        EXPECT_EQ(hole_pixels(test, reference, 1).count, 1u) << x;
+    }
+    // A steep plane steps by more than that from pixel to pixel and has no border.
+    for (uint32_t y = 0; y < 40; ++y)
+        for (uint32_t x = 0; x < 60; ++x) reference.depth_m[at(reference, x, y)] = 100 / (1 + 0.1f * float(x) + 0.2f * float(y));
+    Frame test = reference;
+    show_background(test, 20, 20);
+    EXPECT_EQ(hole_pixels(test, reference, 1, {0, nullptr, true}).count, 1u);
+}
+
 TEST(Holes, CrackIsOneWhateverWasPromised) {
     Frame reference = crest_frame(20);
     for (uint32_t y = 0; y < 8; ++y)

@@ -31,13 +31,13 @@ std::vector<float> map_of(const TemporalError& error, uint32_t width, uint32_t h
     return map;
 }
 
-// The holes of all things in the frame; `around` may be null.
-HolePixels holes_of(const Frame& test, const Frame& reference, double promised_px, const Frame* around) {
+// The holes of all things in the frame.
+HolePixels holes_of(const Frame& test, const Frame& reference, const HoleRule& rule) {
     std::set<uint32_t> things(reference.ids.begin(), reference.ids.end());
     things.erase(kBackground);
     HolePixels all;
     for (uint32_t thing : things) {
-        HolePixels holes = hole_pixels(test, reference, thing, {promised_px, around});
+        HolePixels holes = hole_pixels(test, reference, thing, rule);
         all.count += holes.count;
         all.allowed += holes.allowed;
         all.needs_surroundings |= holes.needs_surroundings;
@@ -56,7 +56,7 @@ double promised_px(const MethodSpec& spec, const Counters& counters) {
     return value_of("triangles") > 0 ? counters.predicted_error_px : std::min(value_of("error-px"), counters.predicted_error_px);
 }
 
-Result<void> judge_picture(const Frame& test, const Frame& reference, double promised_px, const Surroundings& around,
+Result<void> judge_picture(const Frame& test, const Frame& reference, const HoleRule& rule, const Surroundings& around,
                            Numbers& numbers) {
     numbers.psnr_db = psnr_db(rgb_of(test), rgb_of(reference));
     numbers.luma_difference = luma_difference_mean(rgb_of(test), rgb_of(reference));
@@ -64,11 +64,13 @@ Result<void> judge_picture(const Frame& test, const Frame& reference, double pro
     numbers.s_p95_px = outline.p95_px;
     numbers.s_max_px = outline.max_px;
 
-    HolePixels holes = holes_of(test, reference, promised_px, nullptr);
+    HolePixels holes = holes_of(test, reference, rule);
     if (holes.needs_surroundings) {
-        Result<Frame> wide = around(surroundings_px(promised_px));
+        Result<Frame> wide = around(surroundings_px(rule.promised_px));
         if (!wide) return tl::unexpected(wide.error());
-        holes = holes_of(test, reference, promised_px, &*wide);
+        HoleRule with_surroundings = rule;
+        with_surroundings.around = &*wide;
+        holes = holes_of(test, reference, with_surroundings);
     }
     numbers.hole_count = double(holes.count);
     numbers.hole_allowed_count = double(holes.allowed);

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "tools/measure/numbers/silhouette.h"
 #include "tools/measure/numbers/temporal.h"
 #include "tools/measure/run.h"
 
@@ -17,9 +18,9 @@ double promised_px(const MethodSpec& spec, const Counters& counters);
 // The reference with so many more pixels on every side.
 using Surroundings = std::function<Result<Frame>(uint32_t margin_px)>;
 
-// What is taken of every frame: S, holes, PSNR, luma. around: asked only where a hole so near the outline is found that what
-// stands outside the picture may be its reason; fails as it does.
-Result<void> judge_picture(const Frame& test, const Frame& reference, double promised_px, const Surroundings& around,
+// What is taken of every frame: S, holes, PSNR, luma. rule: without its surroundings, which `around` gives: asked only where a
+// hole so near the outline is found that what stands outside the picture may be its reason; fails as it does.
+Result<void> judge_picture(const Frame& test, const Frame& reference, const HoleRule& rule, const Surroundings& around,
                            Numbers& numbers);
 
 // E, and the frame itself if it is the worst so far by the 99th percentile over its pixels.

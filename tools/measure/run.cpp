@@ -186,7 +186,8 @@ class Judge {
         FrameRecord& record = result.frames[frame];
         go_to(frame);
         auto around = [&](uint32_t margin_px) { return reference_.surroundings(course_.cameras[frame], margin_px); };
-        return judge_picture(test, truth, promised_px(result.spec, record.counters), around, record.numbers);
+        HoleRule rule{promised_px(result.spec, record.counters), nullptr, world_.is_chain()};
+        return judge_picture(test, truth, rule, around, record.numbers);
     }
 
     Result<void> compare(Field& field, uint32_t frame, const Frame& truth, bool wants_e, bool has_event) {

@@ -36,6 +36,21 @@ std::vector<uint8_t> border_of(const Frame& frame, const std::function<bool(uint
     return border;
 }
 
+// Marks pixels at which 1 / depth bends.
+void add_steps(const Frame& frame, std::vector<uint8_t>& border) {
+    constexpr double kBend = 0.01;
+    auto nearness = [&](size_t at) { return 1 / double(frame.depth_m[at]); };
+    size_t width = frame.width;
+    for (size_t y = 0, at = 0; y < frame.height; ++y)
+        for (size_t x = 0; x < width; ++x, ++at) {
+            auto bends = [&](size_t before, size_t after) {
+                return std::abs(nearness(before) - 2 * nearness(at) + nearness(after)) > kBend * nearness(at);
+            };
+            if (x > 0 && x + 1 < width && bends(at - 1, at + 1)) border[at] = 1;
+            if (y > 0 && y + 1 < frame.height && bends(at - width, at + width)) border[at] = 1;
+        }
+}
+
 double distance_to_outside_px(const Frame& frame, size_t at) {
     size_t x = at % frame.width, y = at / frame.width;
     return double(std::min({x + 1, frame.width - x, y + 1, frame.height - y}));
@@ -129,6 +144,7 @@ HolePixels hole_pixels(const Frame& test, const Frame& reference, uint32_t thing
     Frame wide = widened(reference, rule.around);
     int margin = int(wide.width - reference.width) / 2;
     std::vector<uint8_t> border = border_of(wide, [thing](uint32_t id) { return id == thing; });
+    if (rule.has_things_before_things) add_steps(wide, border);
     std::vector<uint32_t> from_border = squared_distances_px(wide.width, wide.height, border);
 
     HolePixels holes;

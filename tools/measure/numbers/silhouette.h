@@ -38,6 +38,9 @@ struct HoleRule {
     // The reference drawn with surroundings_px(promised_px) more pixels on every side, or nullptr: then nothing is known of what
     // stands outside the picture, and whatever could be excused by it is counted.
     const Frame* around = nullptr;
+    // Things of one id stand before one another: where the reference's depth steps is the outline of one of them, a border as
+    // any other. 1 / depth changes evenly over a plane, however steep: a bend of more than 1 % of it is a step.
+    bool has_things_before_things = false;
 };
 
 // How far the rule looks beyond a pixel.
