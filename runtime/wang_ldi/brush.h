@@ -33,19 +33,41 @@ struct Eye {
     glm::vec2 middle_px;
 };
 
-// Paints splats, and counts.
+// A picture that is painted, by order or by depth. Of what is equally deep the colour of the lower number is shown, so that by
+// depth the picture does not depend on the order.
 template <Hiding hiding>
+class PictureTarget {
+  public:
+    explicit PictureTarget(Warped& picture) : picture_(&picture) {}
+    int width_px() const { return int(picture_->width_px); }
+    int height_px() const { return int(picture_->height_px); }
+
+    void put(int x, int y, float depth_m, uint32_t colour) {
+        size_t p = size_t(y) * picture_->width_px + size_t(x);
+        if (hiding == Hiding::by_depth && is_hidden(p, depth_m, colour)) return;
+        picture_->colours[p] = colour, picture_->depth_m[p] = depth_m;
+    }
+
+  private:
+    bool is_hidden(size_t p, float depth_m, uint32_t colour) const {
+        return depth_m > picture_->depth_m[p] || (depth_m == picture_->depth_m[p] && colour >= picture_->colours[p]);
+    }
+    Warped* picture_;
+};
+
+// Paints splats on a target, and counts.
+template <class Target>
 class Brush {
   public:
-    Brush(const Eye& eye, Warped& picture, WarpCounts& counts)
-        : picture_(picture), counts_(counts), near_m_(eye.near_m), middle_px_(eye.middle_px) {}
+    Brush(const Eye& eye, const Target& target, WarpCounts& counts)
+        : target_(target), counts_(counts), near_m_(eye.near_m), middle_px_(eye.middle_px) {}
 
     // at: as Eye::seen, from the eye. wide: of the splat, times the focal length, in metres.
     void splat(const glm::vec3& at, float wide, uint32_t colour) {
         ++counts_.samples;
         if (!(at.z >= near_m_)) return;
-        float x = middle_px_.x + at.x / at.z, y = middle_px_.y - at.y / at.z;
-        int side = std::clamp(int(std::min(wide / at.z, 1e4f) + 0.5f), 1, kMostSplat_px);
+        float nearness = 1 / at.z, x = middle_px_.x + at.x * nearness, y = middle_px_.y - at.y * nearness;
+        int side = std::clamp(int(std::min(wide * nearness, 1e4f) + 0.5f), 1, kMostSplat_px);
         float half = 0.5f * float(side - 1);
         if (!(std::abs(x) < 1e6f && std::abs(y) < 1e6f)) return;
         fill(int(std::floor(x - half)), int(std::floor(y - half)), side, at.z, colour);
@@ -53,19 +75,15 @@ class Brush {
 
   private:
     void fill(int left, int top, int side, float depth_m, uint32_t colour) {
-        int right = std::min(left + side, int(picture_.width_px)), bottom = std::min(top + side, int(picture_.height_px));
+        int right = std::min(left + side, target_.width_px()), bottom = std::min(top + side, target_.height_px());
         left = std::max(left, 0), top = std::max(top, 0);
         if (left >= right || top >= bottom) return;
         ++counts_.samples_drawn, counts_.pixels_written += uint64_t(right - left) * uint64_t(bottom - top);
         for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x) {
-                size_t p = size_t(y) * picture_.width_px + size_t(x);
-                if (hiding == Hiding::by_depth && !(depth_m < picture_.depth_m[p])) continue;
-                picture_.colours[p] = colour, picture_.depth_m[p] = depth_m;
-            }
+            for (int x = left; x < right; ++x) target_.put(x, y, depth_m, colour);
     }
 
-    Warped& picture_;
+    Target target_;
     WarpCounts& counts_;
     float near_m_;
     glm::vec2 middle_px_;

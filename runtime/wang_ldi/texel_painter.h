@@ -14,10 +14,10 @@ namespace overlook::wang_ldi {
 constexpr double kDiagonal = 1.4142135623730951;  // of a square: so wide a texel leaves no gap, whichever way it is turned
 
 // The texels of an item, [texels_px, texels_px] of it.
-template <Hiding hiding>
+template <class Brush>
 class TexelPainter {
   public:
-    TexelPainter(const Eye& eye, const Field& field, const FarColours& far, const Item& item, Brush<hiding>& brush)
+    TexelPainter(const Eye& eye, const Field& field, const FarColours& far, const Item& item, Brush& brush)
         : eye_(eye), field_(field), far_(far), item_(item), brush_(brush) {
         rect_ = field.parts().placement->rect_of(item.i, item.j, int64_t(1) << item.tiles_log2);
         texel_m_ = (rect_.high_m.x - rect_.low_m.x) / item.texels_px;
@@ -92,7 +92,7 @@ class TexelPainter {
     const Field& field_;
     const FarColours& far_;
     const Item& item_;
-    Brush<hiding>& brush_;
+    Brush& brush_;
     Rect rect_;
     double texel_m_ = 0;
     uint32_t in_tile_px_ = 1;
@@ -102,10 +102,10 @@ class TexelPainter {
 };
 
 // The texels of a tile that images of it give way to.
-template <Hiding hiding>
+template <class Brush>
 class TexelColumns final : public Columns {
   public:
-    TexelColumns(TexelPainter<hiding>& painter, uint32_t texels_px, uint32_t direction)
+    TexelColumns(TexelPainter<Brush>& painter, uint32_t texels_px, uint32_t direction)
         : painter_(painter), direction_(direction) {
         side_px = texels_px;
     }
@@ -113,7 +113,7 @@ class TexelColumns final : public Columns {
     void draw(uint32_t column, uint32_t row) override { painter_.draw(painter_.place(column, row), direction_); }
 
   private:
-    TexelPainter<hiding>& painter_;
+    TexelPainter<Brush>& painter_;
     uint32_t direction_;
 };
 

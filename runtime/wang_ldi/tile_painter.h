@@ -16,6 +16,15 @@
 
 namespace overlook::wang_ldi {
 
+// As of Warped.
+inline std::vector<uint32_t> packed_palette(const Ldi& ldi) {
+    std::vector<uint32_t> packed;
+    packed.reserve(ldi.palette.size());
+    for (const auto& colour : ldi.palette)
+        packed.push_back(uint32_t(colour[0]) | uint32_t(colour[1]) << 8 | uint32_t(colour[2]) << 16 | 0xff000000u);
+    return packed;
+}
+
 // What a tile can be painted from: columns of something over the pixels of a grid.
 class Columns {
   public:
@@ -28,57 +37,73 @@ class Columns {
     Thresholds by_rung, by_direction;  // which pixels are shown
 };
 
-// The columns of a layered depth image.
-template <Hiding hiding>
-class ImageColumns final : public Columns {
-  public:
-    // south_west_m: x and y of the tile's corner. All must outlive this.
-    ImageColumns(const Eye& eye, const ImageSet& set, const Ldi& ldi, uint32_t level_index, float splat_scale,
-                 const glm::dvec2& south_west_m, Brush<hiding>& brush)
-        : eye_(eye), ldi_(ldi), brush_(brush), south_west_m_(south_west_m), low_m_(set.low_m) {
-        const Level& level = set.levels[level_index];
-        side_px = ldi.side_px;
-        pixel_m_ = set.tile_m / level.side_px, step_m_ = level.height_step_m;
-        splat_ = float(eye.focal_px * pixel_m_) * splat_scale * (ldi.splats.empty() ? level.splat_px : 1.0f / 16);
-        up_ = eye.seen({0, 0, 1});
-        palette_.reserve(ldi.palette.size());
-        for (const auto& colour : ldi.palette)
-            palette_.push_back(uint32_t(colour[0]) | uint32_t(colour[1]) << 8 | uint32_t(colour[2]) << 16 | 0xff000000u);
+// How the samples of an image, level by level, come to where a camera sees them: a sample of a column at (x, y) of the tile at
+// corner + y north + x east + height up, single numbers that all ways of warping round alike.
+struct ImageFrame {
+    // south_west_m: x and y of the tile's corner.
+    ImageFrame(const Eye& eye, const ImageSet& set, const Level& level, bool has_splats, float splat_scale,
+               const glm::dvec2& south_west_m_)
+        : south_west_m(south_west_m_), low_m(set.low_m), pixel_m(float(set.tile_m / level.side_px)), step_m(level.height_step_m) {
+        flat_splat = float(eye.focal_px * (set.tile_m / level.side_px)) * splat_scale * (has_splats ? 1.0f / 16 : level.splat_px);
+        up = eye.seen({0, 0, 1});
+    }
+    // On a slope samples stand farther apart, and splats are as much wider.
+    void stand_on(const Eye& eye, const Plane& plane) {
+        corner = eye.seen(glm::dvec3(south_west_m, plane.height_m + low_m) - eye.position_m);
+        east = eye.seen({1, 0, plane.slope.x}), north = eye.seen({0, 1, plane.slope.y});
+        splat = flat_splat * float(std::sqrt(1 + glm::dot(plane.slope, plane.slope)));
+        eye_height_m = eye.position_m.z - plane.height_m - low_m, slope = plane.slope;
+    }
+    float middle_m(uint32_t pixel) const { return (float(pixel) + 0.5f) * pixel_m; }
+    // Of the eye above a column's foot, in steps.
+    double eye_steps(uint32_t column, uint32_t row) const {
+        return (eye_height_m - slope.x * double(middle_m(column)) - slope.y * double(middle_m(row))) / double(step_m);
     }
 
-    void stand_on(const Plane& plane) override {
-        glm::dvec3 corner(south_west_m_, plane.height_m + low_m_);
-        corner_ = eye_.seen(corner - eye_.position_m);
-        east_ = eye_.seen({1, 0, plane.slope.x}), north_ = eye_.seen({0, 1, plane.slope.y});
-        eye_height_m_ = eye_.position_m.z - plane.height_m - low_m_, slope_ = plane.slope;
+    glm::dvec2 south_west_m, slope{0};
+    double low_m, eye_height_m = 0;
+    float pixel_m, step_m, flat_splat = 0, splat = 0;
+    glm::vec3 corner{0}, east{0}, north{0}, up{0};  // as Eye::seen
+};
+
+// The columns of a layered depth image.
+template <class Brush>
+class ImageColumns final : public Columns {
+  public:
+    // All must outlive this.
+    ImageColumns(const Eye& eye, const ImageSet& set, const Ldi& ldi, uint32_t level, float splat_scale,
+                 const glm::dvec2& south_west_m, Brush& brush)
+        : eye_(eye),
+          ldi_(ldi),
+          brush_(brush),
+          frame_(eye, set, set.levels[level], !ldi.splats.empty(), splat_scale, south_west_m),
+          palette_(packed_palette(ldi)) {
+        side_px = ldi.side_px;
     }
+
+    void stand_on(const Plane& plane) override { frame_.stand_on(eye_, plane); }
 
     void draw(uint32_t column, uint32_t row) override {
         size_t pixel = size_t(row) * ldi_.side_px + column;
         uint32_t first = ldi_.first[pixel], end = ldi_.first[pixel + 1];
         if (first == end) return;
-        double x = (column + 0.5) * pixel_m_, y = (row + 0.5) * pixel_m_;
-        glm::vec3 foot = corner_ + float(x) * east_ + float(y) * north_;
-        double eye_step = (eye_height_m_ - slope_.x * x - slope_.y * y) / double(step_m_);
+        glm::vec3 foot = (frame_.corner + frame_.middle_m(row) * frame_.north) + frame_.middle_m(column) * frame_.east;
+        double eye_steps = frame_.eye_steps(column, row);
         uint32_t s = first;
-        for (; s < end && double(ldi_.heights[s]) < eye_step; ++s) draw_sample(s, foot);
+        for (; s < end && double(ldi_.heights[s]) < eye_steps; ++s) draw_sample(s, foot);
         for (uint32_t above = end; above > s; --above) draw_sample(above - 1, foot);
     }
 
   private:
     void draw_sample(uint32_t s, const glm::vec3& foot) {
-        float wide = splat_ * (ldi_.splats.empty() ? 1.0f : float(ldi_.splats[s]));
-        brush_.splat(foot + (float(ldi_.heights[s]) * step_m_) * up_, wide, palette_[ldi_.colours[s]]);
+        float wide = ldi_.splats.empty() ? frame_.splat : frame_.splat * float(ldi_.splats[s]);
+        brush_.splat(foot + (float(ldi_.heights[s]) * frame_.step_m) * frame_.up, wide, palette_[ldi_.colours[s]]);
     }
 
     const Eye& eye_;
     const Ldi& ldi_;
-    Brush<hiding>& brush_;
-    glm::dvec2 south_west_m_;
-    double low_m_ = 0, pixel_m_ = 0, eye_height_m_ = 0;
-    float step_m_ = 0, splat_ = 0;
-    glm::vec3 corner_{0}, east_{0}, north_{0}, up_{0};  // of the tile's frame, as Eye::seen
-    glm::dvec2 slope_{0};
+    Brush& brush_;
+    ImageFrame frame_;
     std::vector<uint32_t> palette_;
 };
 

@@ -13,6 +13,8 @@ namespace {
 
 template <Hiding hiding>
 class FieldWarper {
+    using Painting = Brush<PictureTarget<hiding>>;
+
   public:
     FieldWarper(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
                 const FarColours* far, Warped& picture)
@@ -22,7 +24,7 @@ class FieldWarper {
           list_(list),
           image_at_(image_at),
           far_(far),
-          brush_(eye_, picture, counts_) {
+          brush_(eye_, PictureTarget<hiding>(picture), counts_) {
         for (const Level& level : field.parts().images->levels) highest_step_m_ = std::max(highest_step_m_, level.height_step_m);
     }
 
@@ -33,7 +35,7 @@ class FieldWarper {
         glm::dvec2 eye_share = (glm::dvec2(eye_.position_m) - corner_m) / side_m;
         if (item.half_count == 0) {
             if (far_ != nullptr && item.texels_px > 0)
-                TexelPainter<hiding>(eye_, field_, *far_, item, brush_).draw_all(list_.shown_of(item), eye_share);
+                TexelPainter<Painting>(eye_, field_, *far_, item, brush_).draw_all(list_.shown_of(item), eye_share);
             return;
         }
         draw_tile(item, corner_m, eye_share);
@@ -50,17 +52,18 @@ class FieldWarper {
     void draw_tile(const Item& item, const glm::dvec2& corner_m, const glm::dvec2& eye_share) {
         const ImageSet& images = *field_.parts().images;
         std::vector<std::unique_ptr<Columns>> owners;
-        std::unique_ptr<TexelPainter<hiding>> texels;
+        std::unique_ptr<TexelPainter<Painting>> texels;
         for (const Shown& shown : list_.shown_of(item)) {
             const Rung& rung = field_.ladder().rungs[shown.rung];
             if (rung.stage == Stage::ldi) {
                 const Ldi* ldi = image_at_(field_.image_of(item, shown));
                 counts_.images_missing += ldi == nullptr;
                 if (ldi == nullptr) continue;
-                owners.push_back(std::make_unique<ImageColumns<hiding>>(eye_, images, *ldi, rung.level, 1.0f, corner_m, brush_));
+                owners.push_back(
+                    std::make_unique<ImageColumns<Painting>>(eye_, images, *ldi, rung.level, 1.0f, corner_m, brush_));
             } else if (rung.stage != Stage::geometry && far_ != nullptr) {
-                if (!texels) texels = std::make_unique<TexelPainter<hiding>>(eye_, field_, *far_, item, brush_);
-                owners.push_back(std::make_unique<TexelColumns<hiding>>(*texels, item.texels_px, shown.direction));
+                if (!texels) texels = std::make_unique<TexelPainter<Painting>>(eye_, field_, *far_, item, brush_);
+                owners.push_back(std::make_unique<TexelColumns<Painting>>(*texels, item.texels_px, shown.direction));
             } else {
                 continue;
             }
@@ -84,17 +87,19 @@ class FieldWarper {
     const ImageAt& image_at_;
     const FarColours* far_;
     WarpCounts counts_;
-    Brush<hiding> brush_;
+    Painting brush_;
     float highest_step_m_ = 0;
 };
 
 // Of two pictures the one whose items come later in the list over the other.
 template <Hiding hiding>
 void lay_over(const Warped& later, Warped& picture) {
-    parallel_ranges(picture.colours.size(), size_t(1) << 15, [&](size_t begin, size_t end) {
+    size_t width = picture.width_px;
+    PictureTarget<hiding> target(picture);
+    parallel_ranges(picture.colours.size(), size_t(1) << 15, [&, target](size_t begin, size_t end) mutable {
         for (size_t p = begin; p < end; ++p) {
-            bool is_seen = hiding == Hiding::by_depth ? later.depth_m[p] < picture.depth_m[p] : later.colours[p] != 0;
-            if (is_seen) picture.colours[p] = later.colours[p], picture.depth_m[p] = later.depth_m[p];
+            if (later.colours[p] == 0) continue;
+            target.put(int(p % width), int(p / width), later.depth_m[p], later.colours[p]);
         }
     });
 }

@@ -1,0 +1,53 @@
+// Rows of a prepared image painted on a canvas, many samples at a time.
+#pragma once
+
+#include <vector>
+
+#include "runtime/wang_ldi/canvas.h"
+#include "runtime/wang_ldi/prepared_ldi.h"
+#include "runtime/wang_ldi/project_samples.h"
+#include "runtime/wang_ldi/tile_painter.h"
+
+namespace overlook::wang_ldi {
+
+// What a thread needs to paint, kept from image to image.
+struct FastTools {
+    Canvas* canvas = nullptr;
+    ProjectSamples project = nullptr;
+    WarpCounts counts;
+    std::vector<int32_t> pixels, sides;
+    std::vector<float> depths_m;
+    std::vector<uint32_t> shown;  // of each column of a row
+};
+
+template <Hiding hiding>
+class FastColumns final : public Columns {
+  public:
+    // All must outlive this.
+    FastColumns(const Eye& eye, const ImageSet& set, const PreparedLdi& ldi, uint32_t level, const glm::dvec2& south_west_m,
+                FastTools& tools);
+
+    void stand_on(const Plane& plane) override;
+    void draw(uint32_t column, uint32_t row) override { draw_row(row, {column, column + 1}, nullptr); }
+    // shown: as ProjectSamples.
+    void draw_row(uint32_t row, const Span& columns, const uint32_t* shown);
+
+  private:
+    bool may_be_seen(uint32_t row, const Span& columns, const glm::vec3& foot) const;
+    void paint(uint32_t begin, uint32_t end, const ProjectedCounts& counts);
+    template <int side>
+    void paint_even(uint32_t begin, uint32_t end);
+    void paint_uneven(uint32_t begin, uint32_t end);
+    void paint_towards(uint32_t row, const Span& columns);
+    void paint_column(uint32_t column, uint32_t row, uint32_t begin);
+    void paint_one(uint32_t projected, uint32_t sample);
+
+    const Eye& eye_;
+    const PreparedLdi& ldi_;
+    FastTools& tools_;
+    ImageFrame frame_;
+    RowFrame row_;
+    int64_t eye_column_ = 0;
+};
+
+}  // namespace overlook::wang_ldi

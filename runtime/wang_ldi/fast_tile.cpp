@@ -1,0 +1,110 @@
+#include "runtime/wang_ldi/fast_tile.h"
+
+#include "runtime/wang_ldi/list_parts.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr Thresholds kAll;
+
+bool is_whole(const Columns& columns) {
+    return columns.by_rung == kAll && columns.by_direction == kAll;
+}
+
+}  // namespace
+
+void TileFades::begin(uint64_t tile, uint32_t coarser_px) {
+    tile_ = tile, coarser_px_ = coarser_px;
+    by_rung_.clear();
+    for (uint32_t row = 0; row < coarser_px; ++row)
+        for (uint32_t column = 0; column < coarser_px; ++column)
+            by_rung_.push_back(uint8_t(rung_threshold(tile, column, row, coarser_px, coarser_px)));
+}
+
+void TileFades::mask(const Columns& columns, uint32_t row, const Span& span, std::vector<uint32_t>& shown) const {
+    shown.resize(columns.side_px);
+    const uint8_t* by_rung = by_rung_.data() + size_t(cell_of(row, columns.side_px, coarser_px_)) * coarser_px_;
+    for (uint32_t column = span.from; column < span.to; ++column) {
+        bool is_shown = columns.by_rung.contains(by_rung[cell_of(column, columns.side_px, coarser_px_)]);
+        if (is_shown && !(columns.by_direction == kAll))
+            is_shown = columns.by_direction.contains(direction_threshold(tile_, column, row));
+        shown[column] = is_shown ? ~0u : 0;
+    }
+}
+
+template <Hiding hiding>
+void FastTile<hiding>::draw(const Item& item) {
+    const Field& field = scene_.field;
+    double side_m = field.parts().images->tile_m * double(int64_t(1) << item.tiles_log2);
+    glm::dvec2 corner_m = field.parts().placement->rect_of(item.i, item.j).low_m;
+    if (!scene_.bounds.may_hold({corner_m, item.low_m}, {corner_m + side_m, item.high_m + scene_.highest_step_m},
+                                scene_.eye.focal_px * widest_splat_m(field, scene_.list, item)))
+        return;
+    glm::dvec2 eye_share = (glm::dvec2(scene_.eye.position_m) - corner_m) / side_m;
+    if (item.half_count == 0) {
+        if (scene_.far != nullptr && item.texels_px > 0)
+            TexelPainter<Painting>(scene_.eye, field, *scene_.far, item, brush_).draw_all(scene_.list.shown_of(item), eye_share);
+        return;
+    }
+    choose(item, corner_m);
+    for (const Half& half : scene_.list.halves_of(item)) draw_half(item, half, eye_share);
+}
+
+// What the item is painted from.
+template <Hiding hiding>
+void FastTile<hiding>::choose(const Item& item, const glm::dvec2& corner_m) {
+    const Field& field = scene_.field;
+    images_.clear(), textures_.clear(), texels_.reset(), all_.clear();
+    for (const Shown& shown : scene_.list.shown_of(item)) {
+        const Rung& rung = field.ladder().rungs[shown.rung];
+        if (rung.stage == Stage::ldi) {
+            const PreparedLdi* ldi = scene_.image_at(field.image_of(item, shown));
+            tools_.counts.images_missing += ldi == nullptr;
+            if (ldi == nullptr) continue;
+            all_.push_back(&images_.emplace_back(scene_.eye, *field.parts().images, *ldi, rung.level, corner_m, tools_));
+        } else if (rung.stage != Stage::geometry && scene_.far != nullptr) {
+            if (!texels_) texels_.emplace(scene_.eye, field, *scene_.far, item, brush_);
+            all_.push_back(&textures_.emplace_back(*texels_, item.texels_px, shown.direction));
+        } else {
+            continue;
+        }
+        all_.back()->by_rung = shown.by_rung, all_.back()->by_direction = shown.by_direction;
+    }
+    bool is_mixed = false;
+    for (const Columns* columns : all_) is_mixed |= !is_whole(*columns);
+    if (is_mixed) fades_.begin(Field::fade_number(item.i, item.j), item.coarser_px);
+}
+
+template <Hiding hiding>
+void FastTile<hiding>::draw_half(const Item& item, const Half& half, const glm::dvec2& eye_share) {
+    for (Columns* columns : all_) columns->stand_on(half.plane);
+    Piece piece{half.column, half.row, 1u << item.pieces_log2, false, half.half, half.diagonal};
+    TilePlaces places{Field::fade_number(item.i, item.j), item.coarser_px, eye_share};
+    if (hiding == Hiding::by_order && (all_.size() != 1 || images_.empty() || !is_whole(*all_[0])))
+        return paint_piece(places, piece, all_);  // so that the order holds between images too
+    for (FastColumns<hiding>& columns : images_) draw_rows(columns, piece, eye_share);
+    for (TexelColumns<Painting>& columns : textures_) {
+        Columns* all[] = {&columns};
+        paint_piece(places, piece, all);
+    }
+}
+
+template <Hiding hiding>
+void FastTile<hiding>::draw_rows(FastColumns<hiding>& columns, const Piece& piece, const glm::dvec2& eye_share) {
+    uint32_t side = columns.side_px;
+    Span rows = rows_of(piece, side);
+    int64_t eye_row = cell_at(eye_share.y, side);
+    bool all_shown = is_whole(columns);
+    for (uint32_t j = 0; rows.from + j < rows.to; ++j) {
+        uint32_t row = towards(j, eye_row, rows);
+        Span span = columns_of(piece, row, side);
+        if (span.is_empty()) continue;
+        if (!all_shown) fades_.mask(columns, row, span, tools_.shown);
+        columns.draw_row(row, span, all_shown ? nullptr : tools_.shown.data());
+    }
+}
+
+template class FastTile<Hiding::by_order>;
+template class FastTile<Hiding::by_depth>;
+
+}  // namespace overlook::wang_ldi

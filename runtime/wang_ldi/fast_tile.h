@@ -1,0 +1,63 @@
+// An item of a field painted on a canvas.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "runtime/wang_ldi/fast_columns.h"
+#include "runtime/wang_ldi/fast_warp.h"
+#include "runtime/wang_ldi/in_picture.h"
+#include "runtime/wang_ldi/texel_painter.h"
+
+namespace overlook::wang_ldi {
+
+// What is the same for all items of a picture. All must outlive it.
+struct FastScene {
+    Eye eye;
+    PictureBounds bounds;
+    const Field& field;
+    const FieldList& list;
+    const PreparedAt& image_at;
+    const FarColours* far;
+    double highest_step_m;  // of any level
+};
+
+// Which coarse cells of a tile show which rung, looked up once for all of its rows.
+class TileFades {
+  public:
+    void begin(uint64_t tile, uint32_t coarser_px);
+    // Writes all bits for each of a row's columns that is shown, none for the others.
+    void mask(const Columns& columns, uint32_t row, const Span& span, std::vector<uint32_t>& shown) const;
+
+  private:
+    uint64_t tile_ = 0;
+    uint32_t coarser_px_ = 1;
+    std::vector<uint8_t> by_rung_;  // [coarser_px, coarser_px]
+};
+
+template <Hiding hiding>
+class FastTile {
+  public:
+    FastTile(const FastScene& scene, FastTools& tools)
+        : scene_(scene), tools_(tools), brush_(scene.eye, CanvasTarget<hiding>(*tools.canvas), tools.counts) {}
+
+    void draw(const Item& item);
+
+  private:
+    using Painting = Brush<CanvasTarget<hiding>>;
+    void choose(const Item& item, const glm::dvec2& corner_m);
+    void draw_half(const Item& item, const Half& half, const glm::dvec2& eye_share);
+    void draw_rows(FastColumns<hiding>& columns, const Piece& piece, const glm::dvec2& eye_share);
+
+    const FastScene& scene_;
+    FastTools& tools_;
+    Painting brush_;
+    TileFades fades_;
+    std::deque<FastColumns<hiding>> images_;  // of the item that is drawn
+    std::optional<TexelPainter<Painting>> texels_;
+    std::deque<TexelColumns<Painting>> textures_;
+    std::vector<Columns*> all_;
+};
+
+}  // namespace overlook::wang_ldi

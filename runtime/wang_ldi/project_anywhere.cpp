@@ -1,0 +1,17 @@
+#include "runtime/wang_ldi/project_lanes.h"
+
+namespace overlook::wang_ldi {
+
+void project_samples_anywhere(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
+                              uint32_t count, const Projected& out, ProjectedCounts& counts) {
+    project_lanes(row, places, splats, shown, count, out, counts);
+}
+
+ProjectSamples best_project_samples() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) return project_samples_avx2;
+#endif
+    return project_samples_anywhere;
+}
+
+}  // namespace overlook::wang_ldi

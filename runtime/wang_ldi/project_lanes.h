@@ -1,0 +1,105 @@
+// How project_samples does it, eight samples at a time. Included once by each of its compilations, which differ in what the
+// compiler may use: so nothing in here may have a name that others see, nor call what others compile.
+#pragma once
+
+#include "runtime/wang_ldi/project_samples.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr uint32_t kLanes = 8;
+using Floats = float __attribute__((vector_size(32)));
+using Ints = int32_t __attribute__((vector_size(32)));
+using Words = uint32_t __attribute__((vector_size(32)));
+using Bytes = uint8_t __attribute__((vector_size(8)));
+
+template <class Vector, class Number>
+inline void load(Vector& into, const Number* from) {
+    __builtin_memcpy(&into, from, sizeof into);
+}
+template <class Vector, class Number>
+inline void store(Number* to, const Vector& from) {
+    __builtin_memcpy(to, &from, sizeof from);
+}
+// Lanes of one where the mask has all bits, of the other where it has none.
+template <class Vector>
+inline Vector chosen(const Ints& mask, const Vector& one, const Vector& other) {
+    return (Vector)(((Ints)one & mask) | ((Ints)other & ~mask));
+}
+inline Ints floor_of(const Floats& value) {
+    Ints towards_zero = __builtin_convertvector(value, Ints);
+    return towards_zero + (__builtin_convertvector(towards_zero, Floats) > value);
+}
+inline Ints lesser(const Ints& a, const Ints& b) {
+    return chosen(a < b, a, b);
+}
+inline Ints greater(const Ints& a, const Ints& b) {
+    return chosen(a > b, a, b);
+}
+inline int64_t sum_of(const Ints& lanes) {
+    int64_t sum = 0;
+    for (uint32_t lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
+    return sum;
+}
+
+// Of eight samples.
+struct Eight {
+    Ints is_shown, is_drawn, left, top, side, pixels;
+    Floats depth_m;
+};
+
+inline void project_eight(const RowFrame& row, const uint32_t* places, const uint8_t* splats, Eight& out) {
+    Words place;
+    load(place, places);
+    Floats x = (__builtin_convertvector((Ints)(place & 0xffffu), Floats) + 0.5f) * row.pixel_m;
+    Floats z = __builtin_convertvector((Ints)(place >> 16), Floats) * row.step_m;
+    Floats right = (row.foot[0] + x * row.east[0]) + z * row.up[0], up = (row.foot[1] + x * row.east[1]) + z * row.up[1];
+    Floats depth = (row.foot[2] + x * row.east[2]) + z * row.up[2];
+    Floats wide = row.splat - Floats{};
+    if (splats != nullptr) {
+        Bytes splat;
+        load(splat, splats);
+        wide = row.splat * __builtin_convertvector(__builtin_convertvector(splat, Ints), Floats);
+    }
+    Ints is_drawn = out.is_shown & (depth >= row.near_m);
+    depth = chosen(is_drawn, depth, Floats{} + 1.0f);
+    Floats nearness = 1.0f / depth, across = row.middle_px[0] + right * nearness, down = row.middle_px[1] - up * nearness;
+    is_drawn &= (across < 1e6f) & (across > -1e6f) & (down < 1e6f) & (down > -1e6f);
+    across = chosen(is_drawn, across, Floats{}), down = chosen(is_drawn, down, Floats{});
+    Floats width = wide * nearness;
+    width = chosen(width < 1e4f, width, Floats{} + 1e4f) + 0.5f;
+    Ints side = greater(lesser(__builtin_convertvector(width, Ints), Ints{} + 64), Ints{} + 1);
+    Floats half = 0.5f * __builtin_convertvector(side - 1, Floats);
+    out.left = floor_of(across - half), out.top = floor_of(down - half), out.side = side;
+    is_drawn &= (out.left < row.width_px) & (out.top < row.height_px) & (out.left + side > 0) & (out.top + side > 0);
+    out.is_drawn = is_drawn, out.depth_m = depth;
+    out.pixels = chosen(is_drawn, row.origin + out.top * row.stride + out.left, Ints{} + row.nowhere);
+}
+
+inline void project_lanes(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
+                          uint32_t count, const Projected& out, ProjectedCounts& counts) {
+    Ints least_side = Ints{} + counts.least_side, most_side = Ints{} + counts.most_side;
+    const Ints lane{0, 1, 2, 3, 4, 5, 6, 7};
+    for (uint32_t s = 0; s < count; s += kLanes) {
+        Eight eight;
+        eight.is_shown = lane < int32_t(count - s);
+        if (shown != nullptr)
+            for (uint32_t k = 0; k < kLanes; ++k) eight.is_shown[k] &= int32_t(shown[places[s + k] & 0xffffu]);
+        project_eight(row, places + s, splats == nullptr ? nullptr : splats + s, eight);
+        Ints side = chosen(eight.is_drawn, eight.side, Ints{} + 1);
+        store(out.pixels + s, eight.pixels), store(out.sides + s, side), store(out.depths_m + s, eight.depth_m);
+        least_side = lesser(least_side, chosen(eight.is_drawn, side, Ints{} + 64));
+        most_side = greater(most_side, side & eight.is_drawn);
+        Ints wide = lesser(eight.left + eight.side, Ints{} + row.width_px) - greater(eight.left, Ints{});
+        Ints high = lesser(eight.top + eight.side, Ints{} + row.height_px) - greater(eight.top, Ints{});
+        counts.samples -= uint64_t(sum_of(eight.is_shown)), counts.drawn -= uint64_t(sum_of(eight.is_drawn));
+        counts.pixels += uint64_t(sum_of((wide * high) & eight.is_drawn));
+    }
+    for (uint32_t k = 0; k < kLanes; ++k) {
+        if (least_side[k] < counts.least_side) counts.least_side = least_side[k];
+        if (most_side[k] > counts.most_side) counts.most_side = most_side[k];
+    }
+}
+
+}  // namespace
+}  // namespace overlook::wang_ldi

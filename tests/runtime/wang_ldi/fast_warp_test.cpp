@@ -1,0 +1,179 @@
+// The fast warper shows what the exact one shows, with every kind of vectors and any number of threads.
+#include "runtime/wang_ldi/fast_warp.h"
+
+#include <gtest/gtest.h>
+
+#include "formats/parallel.h"
+#include "runtime/wang_ldi/project_samples.h"
+#include "tests/runtime/wang_ldi/field_images.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+struct FastField : DrawnField {
+    std::vector<PreparedLdi> prepared;
+    FarColours far;
+
+    explicit FastField(Ground ground_, bool has_splats = false) : DrawnField(std::move(ground_)) {
+        images.has_splats = has_splats;
+        for (Ldi& ldi : ldis) {
+            if (has_splats)
+                for (uint32_t s = 0; s < ldi.sample_count(); ++s) ldi.splats.push_back(uint8_t(8 + s * 7 % 40));
+            prepared.push_back(PreparedLdi::of(ldi));
+        }
+        far = FarColours::of(images, all());
+    }
+    PreparedAt at_hand() const {
+        return [this](uint64_t index) { return &prepared[index]; };
+    }
+};
+const FastField& hilly(bool has_splats) {
+    static const FastField without(Ground(hills()), false), with(Ground(hills()), true);
+    return has_splats ? with : without;
+}
+// At head height, from above, amid a tile's plants, and very near.
+std::vector<view::Camera> cameras(const Ground& ground) {
+    std::vector<view::Camera> all;
+    for (int n = 0; n < 6; ++n) {
+        glm::dvec2 at(401.3 + 37 * n, -533.1 + 21 * n);
+        double above = n == 4 ? 25 : n == 5 ? 0.4 : 1.8;
+        all.push_back(head_camera({at, ground.height_m(at) + above}, 70.0 * n, n == 4 ? -50 : -8));
+    }
+    return all;
+}
+size_t differing(const Warped& a, const Warped& b) {
+    size_t count = 0;
+    for (size_t p = 0; p < a.colours.size(); ++p) count += a.colours[p] != b.colours[p] || a.depth_m[p] != b.depth_m[p];
+    return count;
+}
+
+TEST(FastWarp, ShowsWhatTheExactWarperShows) {
+    uint64_t samples = 0, pixels = 0;
+    for (bool has_splats : {false, true})
+        for (bool fades : {false, true}) {
+            const FastField& test = hilly(has_splats);
+            Field field = test.field(fades ? test.far_options() : paper_options(test.images));
+            FastWarp fast;
+            for (const view::Camera& camera : cameras(test.ground))
+                for (Hiding hiding : {Hiding::by_order, Hiding::by_depth}) {
+                    FieldList list = list_of(field, camera);
+                    Warped exact = empty_picture(camera), quick;
+                    WarpCounts counts = warp_field(camera, field, list, test.all(), hiding, exact, &test.far);
+                    WarpCounts of_quick = fast.warp(camera, field, list, test.at_hand(), {hiding, false}, quick, &test.far);
+                    EXPECT_LE(differing(exact, quick), exact.colours.size() / 100000)
+                        << "splats " << has_splats << ", fades " << fades;
+                    EXPECT_EQ(of_quick.samples_drawn, counts.samples_drawn);
+                    EXPECT_EQ(of_quick.pixels_written, counts.pixels_written);
+                    EXPECT_LE(of_quick.samples, counts.samples);
+                    samples += counts.samples_drawn, pixels += exact.colours.size();
+                }
+        }
+    EXPECT_GT(samples, pixels);
+}
+
+// Of widths and heights and places that are no multiples of eight too, and whatever is behind the eye or beside the picture.
+TEST(FastWarp, AllKindsOfVectorsGiveTheSameNumbers) {
+    const FastField& test = hilly(true);
+    Field field = test.field(test.far_options());
+    FastWarp fast;
+    for (view::Camera camera : cameras(test.ground)) {
+        camera.width_px = 333, camera.height_px = 131;
+        FieldList list = list_of(field, camera);
+        for (Hiding hiding : {Hiding::by_order, Hiding::by_depth}) {
+            Warped wide, plain;
+            WarpCounts one = fast.warp(camera, field, list, test.at_hand(), {hiding, true, true}, wide, &test.far);
+            WarpCounts other = fast.warp(camera, field, list, test.at_hand(), {hiding, true, false}, plain, &test.far);
+            EXPECT_TRUE(one == other);
+            EXPECT_TRUE(wide.colours == plain.colours);
+            EXPECT_TRUE(wide.depth_m == plain.depth_m);
+        }
+    }
+}
+
+TEST(FastWarp, AnyNumberOfThreadsDrawsTheSame) {
+    const FastField& test = hilly(false);
+    Field field = test.field(test.far_options());
+    view::Camera camera = cameras(test.ground)[1];
+    FieldList list = list_of(field, camera);
+    for (Hiding hiding : {Hiding::by_order, Hiding::by_depth}) {
+        set_thread_count(1);
+        FastWarp fast;
+        Warped one, many;
+        WarpCounts counts = fast.warp(camera, field, list, test.at_hand(), {hiding}, one, &test.far);
+        uint64_t filled = fast.holes_filled();
+        for (unsigned threads : {2u, 3u, 8u, 2u}) {
+            set_thread_count(threads);
+            EXPECT_TRUE(fast.warp(camera, field, list, test.at_hand(), {hiding}, many, &test.far) == counts) << threads;
+            EXPECT_TRUE(many.colours == one.colours && many.depth_m == one.depth_m) << threads;
+            EXPECT_EQ(fast.holes_filled(), filled);
+        }
+    }
+    set_thread_count(0);
+}
+
+// Nothing of a picture is left for the next, of another size or from elsewhere.
+TEST(FastWarp, APictureDoesNotDependOnTheOneBefore) {
+    const FastField& test = hilly(false);
+    Field field = test.field(test.far_options());
+    FastWarp used;
+    auto all = cameras(test.ground);
+    all[2].width_px = 200, all[3].height_px = 300;
+    for (size_t n = 0; n < all.size(); ++n) {
+        FastWarp fresh;
+        FieldList list = list_of(field, all[n]);
+        FastOptions options{n % 2 ? Hiding::by_order : Hiding::by_depth};
+        Warped picture, expected;
+        used.warp(all[n], field, list, test.at_hand(), options, picture, &test.far);
+        fresh.warp(all[n], field, list, test.at_hand(), options, expected, &test.far);
+        EXPECT_TRUE(picture.colours == expected.colours && picture.depth_m == expected.depth_m) << n;
+    }
+}
+
+TEST(FastWarp, WhatIsNotAtHandIsCountedAndLeftOut) {
+    const FastField& test = hilly(false);
+    Field field = test.field(paper_options(test.images));
+    view::Camera camera = cameras(test.ground)[0];
+    FieldList list = list_of(field, camera);
+    FastWarp fast;
+    Warped picture;
+    WarpCounts none = fast.warp(
+        camera, field, list, [](uint64_t) -> const PreparedLdi* { return nullptr; }, {}, picture);
+    EXPECT_EQ(none.samples, 0u);
+    EXPECT_GT(none.images_missing, 100u);
+    EXPECT_EQ(std::count(picture.colours.begin(), picture.colours.end(), 0u), ptrdiff_t(picture.colours.size()));
+}
+
+// The same lanes that are drawn, with the same numbers, whichever the processor has.
+TEST(FastWarp, LanesBehindTheEyeOrNotShownAreNotDrawn) {
+    RowFrame row{{-15, 0, -1}, {6, 0, 0.5f}, {0, 100, 0}, 0.1f, 0.01f, 5, 0.1f, {50, 40}, 100, 80, 228, 64 * 228 + 64, 0};
+    std::vector<uint32_t> places, shown(64, ~0u);
+    for (uint32_t s = 0; s < 64 + 8; ++s) places.push_back(s % 64 | (s % 5) << 16);
+    for (uint32_t s = 0; s < 64; s += 3) shown[s] = 0;
+    for (ProjectSamples project : {&project_samples_anywhere, best_project_samples()})
+        for (uint32_t count : {1u, 7u, 8u, 61u}) {
+            std::vector<int32_t> pixels(72), sides(72);
+            std::vector<float> depths(72);
+            ProjectedCounts counts;
+            project(row, places.data(), nullptr, shown.data(), count, {pixels.data(), sides.data(), depths.data()}, counts);
+            uint64_t samples = 0, drawn = 0;
+            for (uint32_t s = 0; s < count; ++s) {
+                float depth = -1 + (float(s) + 0.5f) * 0.1f * 0.5f;
+                samples += shown[s] != 0;
+                bool is_drawn = pixels[s] != row.nowhere;
+                drawn += is_drawn;
+                if (is_drawn) {
+                    EXPECT_TRUE(shown[s] != 0 && depth >= 0.1f);
+                    EXPECT_NEAR(depths[s], depth, 1e-6);
+                }
+            }
+            EXPECT_EQ(counts.samples, samples);
+            EXPECT_EQ(counts.drawn, drawn);
+            if (count == 61) {
+                EXPECT_GT(drawn, 5u);
+                EXPECT_LT(drawn, 30u);
+            }
+        }
+}
+
+}  // namespace
+}  // namespace overlook::wang_ldi
