@@ -20,7 +20,7 @@ constexpr Member kSceneMembers[] = {
 };
 constexpr Member kLayerMembers[] = {
     {"asset", Kind::text, true},  {"transform", Kind::object}, {"instances", Kind::array, false, 1, double(kMostInstances)},
-    {"method", Kind::text, true}, {"settings", Kind::object},
+    {"method", Kind::text, true}, {"settings", Kind::object},  {"planting", Kind::object},
 };
 constexpr Member kTransformMembers[] = {
     {"translation_m", Kind::array, false, -1e9, 1e9, 3},
@@ -34,6 +34,16 @@ constexpr Member kInstanceMembers[] = {
     {"velocity_m_s", Kind::array, false, -1e4, 1e4, 3},
     {"spin_deg_s", Kind::number, false, -3600, 3600},
 };
+constexpr Member kPlantingMembers[] = {
+    {"lowest_m", Kind::number, false, -1e6, 1e6},
+    {"highest_m", Kind::number, false, -1e6, 1e6},
+    {"steepest", Kind::number, false, 0, 100},
+    {"mask", Kind::text},
+    {"density", Kind::text},
+    {"fairing_tiles", Kind::number, false, 0, 8},
+    {"seed", Kind::number, false, 0, 4294967295.0},
+    {"models", Kind::array, false, 1, double(kMostModels)},
+};
 constexpr Member kLightMembers[] = {{"haze", Kind::number, false, 0, 10}};
 constexpr Member kCameraMembers[] = {
     {"fov_y_deg", Kind::number, false, 1, 170},
@@ -44,6 +54,7 @@ constexpr ObjectForm kForms[] = {
     {"/$defs/layer", kLayerMembers},
     {"/$defs/transform", kTransformMembers},
     {"/$defs/instance", kInstanceMembers},
+    {"/$defs/planting", kPlantingMembers},
     {"/$defs/light", kLightMembers},
     {"/$defs/camera", kCameraMembers},
 };
@@ -67,12 +78,14 @@ void read_method(Form& form, const Node& node, Layer& layer) {
     if (!is_variant(layer.variant)) form.fail(node, "a variant is lower-case letters, digits and hyphens after the colon");
 }
 
-void read_asset(Form& form, const Node& node, Layer& layer) {
+// A file's name, relative to the scene's; what: "a baked file".
+void read_file_name(Form& form, const Node& node, std::string_view what, std::string& name) {
     if (node.value == nullptr) return;
-    layer.asset = node.value->text;
-    if (layer.asset.empty()) return form.fail(node, "is empty; name a baked file");
-    if (layer.asset.front() == '/') return form.fail(node, "begins with /; name it relative to the scene's file");
-    if (layer.asset.find('\0') != std::string::npos) form.fail(node, "holds a zero byte");
+    if (node.value->kind != Kind::text) return form.fail(node, fmt::format("is no text; name {}", what));
+    name = node.value->text;
+    if (name.empty()) return form.fail(node, fmt::format("is empty; name {}", what));
+    if (name.front() == '/') return form.fail(node, "begins with /; name it relative to the scene's file");
+    if (name.find('\0') != std::string::npos) form.fail(node, "holds a zero byte");
 }
 
 void read_settings(Form& form, const Node& node, Layer& layer) {
@@ -123,15 +136,45 @@ void read_instances(Form& form, const Node& node, Layer& layer) {
     for (const Node& item : form.items(node)) layer.instances.push_back(read_instance(form, item));
 }
 
+uint32_t read_whole(Form& form, const Node& object, std::string_view name, uint32_t otherwise) {
+    double number = form.number(object, name, otherwise);
+    if (number != std::floor(number)) form.fail(form.member(object, name), fmt::format("{} is no whole number", number));
+    return form.is_right() ? uint32_t(number) : otherwise;
+}
+
+void read_planting(Form& form, const Node& node, Layer& layer) {
+    if (node.value == nullptr) return;
+    if (layer.method != "wang-ldi") return form.fail(node, fmt::format("{} plants nothing; wang-ldi does", layer.method));
+    form.expect(node, kPlantingMembers);
+    if (!form.is_right()) return;
+    Planting& planting = layer.planting.emplace();
+    auto number_of = [&](std::string_view name) -> std::optional<double> {
+        if (form.member(node, name).value == nullptr) return std::nullopt;
+        return form.number(node, name, 0);
+    };
+    planting.lowest_m = number_of("lowest_m"), planting.highest_m = number_of("highest_m");
+    planting.steepest = form.number(node, "steepest", planting.steepest);
+    read_file_name(form, form.member(node, "mask"), "a PNG", planting.mask);
+    read_file_name(form, form.member(node, "density"), "a PNG", planting.density);
+    planting.fairing_tiles = read_whole(form, node, "fairing_tiles", planting.fairing_tiles);
+    planting.seed = read_whole(form, node, "seed", planting.seed);
+    for (const Node& item : form.items(form.member(node, "models")))
+        read_file_name(form, item, "a baked chain of levels", planting.models.emplace_back());
+    if (planting.lowest_m && planting.highest_m && *planting.highest_m < *planting.lowest_m)
+        form.fail(form.member(node, "highest_m"),
+                  fmt::format("{} is below lowest_m, {}", *planting.highest_m, *planting.lowest_m));
+}
+
 Layer read_layer(Form& form, const Node& node) {
     Layer layer;
     form.expect(node, kLayerMembers);
     if (!form.is_right()) return layer;
-    read_asset(form, form.member(node, "asset"), layer);
+    read_file_name(form, form.member(node, "asset"), "a baked file", layer.asset);
     read_method(form, form.member(node, "method"), layer);
     layer.transform = read_transform(form, form.member(node, "transform"), kTransformMembers);
     read_instances(form, form.member(node, "instances"), layer);
     read_settings(form, form.member(node, "settings"), layer);
+    read_planting(form, form.member(node, "planting"), layer);
     return layer;
 }
 
@@ -154,12 +197,25 @@ std::string text_of(const Instance& instance) {
     return text + "}";
 }
 
+std::string text_of(const Planting& planting) {
+    std::string text = fmt::format("{{\"steepest\": {}, \"fairing_tiles\": {}, \"seed\": {}", planting.steepest,
+                                   planting.fairing_tiles, planting.seed);
+    if (planting.lowest_m) text += fmt::format(", \"lowest_m\": {}", *planting.lowest_m);
+    if (planting.highest_m) text += fmt::format(", \"highest_m\": {}", *planting.highest_m);
+    if (!planting.mask.empty()) text += ", \"mask\": " + json::quoted(planting.mask);
+    if (!planting.density.empty()) text += ", \"density\": " + json::quoted(planting.density);
+    for (size_t i = 0; i < planting.models.size(); ++i)
+        text += (i == 0 ? ", \"models\": [" : ", ") + json::quoted(planting.models[i]);
+    return text + (planting.models.empty() ? "}" : "]}");
+}
+
 std::string text_of(const Layer& layer) {
     std::string text = fmt::format("    {{\n      \"asset\": {},\n", json::quoted(layer.asset));
     text += fmt::format("      \"transform\": {{{}}},\n", members_of(layer.transform));
     for (size_t i = 0; i < layer.instances.size(); ++i)
         text += fmt::format("{}        {}", i == 0 ? "      \"instances\": [\n" : ",\n", text_of(layer.instances[i]));
     if (!layer.instances.empty()) text += "\n      ],\n";
+    if (layer.planting) text += fmt::format("      \"planting\": {},\n", text_of(*layer.planting));
     text += fmt::format("      \"method\": {},\n      \"settings\": {{",
                         json::quoted(layer.variant.empty() ? layer.method : layer.method + ":" + layer.variant));
     for (size_t i = 0; i < layer.settings.size(); ++i) {
@@ -211,9 +267,13 @@ Result<Scene> read_scene(const std::string& path) {
     return scene_from(*root, path);
 }
 
-std::string asset_path(const std::string& scene_path, const Layer& layer) {
+std::string path_in_scene(const std::string& scene_path, const std::string& name) {
     size_t slash = scene_path.rfind('/');
-    return slash == std::string::npos ? layer.asset : scene_path.substr(0, slash + 1) + layer.asset;
+    return slash == std::string::npos ? name : scene_path.substr(0, slash + 1) + name;
+}
+
+std::string asset_path(const std::string& scene_path, const Layer& layer) {
+    return path_in_scene(scene_path, layer.asset);
 }
 
 std::string json_from_scene(const Scene& scene) {

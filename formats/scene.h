@@ -40,6 +40,23 @@ Transform at_time(const Instance& instance, double time_s);
 
 using Setting = std::variant<bool, double, std::string>;
 
+// Where on its ground what a layer plants stands: on the scene's terrain, or on a plain at height 0 if it has none. Files are
+// named relative to the scene's.
+struct Planting {
+    std::optional<double> lowest_m, highest_m;  // all of a tile's ground lies between, -1e6..1e6
+    double steepest = 1;                        // no ground under a tile is steeper, metres up for a metre along, 0..100
+    std::string mask;            // a PNG over the ground: planted where it is half white at least; empty: everywhere
+    std::string density;         // a PNG over the ground: how densely, white as densely as anywhere; empty: white
+    uint32_t fairing_tiles = 1;  // over so many tiles at its edge the planting thins out, 0..8
+    uint32_t seed = 1;           // of the tiling
+    // Chains of levels of what is planted, in the order of the models in the baked file: what near tiles are drawn with. Empty:
+    // none, and near tiles are drawn as far ones. At most kMostModels.
+    std::vector<std::string> models;
+
+    bool operator==(const Planting&) const = default;
+};
+constexpr size_t kMostModels = 4096;
+
 // Something drawn, and how.
 struct Layer {
     std::string asset;  // a baked file, relative to the scene's file
@@ -47,6 +64,7 @@ struct Layer {
     // Where the asset stands, each time whole, before `transform` is applied to all; of method discrete alone. None: once, as it
     // is.
     std::vector<Instance> instances;                        // at most kMostInstances
+    std::optional<Planting> planting;                       // of method wang-ldi alone
     std::string method;                                     // one of kMethods
     std::string variant;                                    // as in "lod-sprite:paper"; empty = the default one
     std::vector<std::pair<std::string, Setting>> settings;  // in the file's order; which there are, the method knows
@@ -99,6 +117,10 @@ struct Flight {
 //   "valley.scene.json:12:7: /layers/0/method: a variant is lower-case letters, digits and hyphens after the colon"
 //   "valley.scene.json:12:7: /layers/0/asset: is empty; name a baked file" (also: begins with /, or holds a zero byte)
 //   "valley.scene.json:12:7: /layers/0/instances: terrain draws no instances; discrete does"
+//   "valley.scene.json:12:7: /layers/0/planting: terrain plants nothing; wang-ldi does"
+//   "valley.scene.json:12:7: /layers/0/planting/mask: is empty; name a PNG" (also: begins with /, or holds a zero byte)
+//   "valley.scene.json:12:7: /layers/0/planting/highest_m: 200 is below lowest_m, 500"
+//   "valley.scene.json:12:7: /layers/0/planting/seed: 1.5 is no whole number"
 //   "a.flight.json:9:5: /keys/3/time_s: 2 is not after the key before, at 2"
 //   "a.flight.json:3:5: /interpolation: smoth is no interpolation; did you mean smooth?"
 //   "a.flight.json:2:3: /step_s: 1e-04 makes more than 10,000,000 frames of 1001 s; a longer step is wanted"
@@ -109,7 +131,8 @@ Result<Flight> parse_flight(std::string_view text, const std::string& name);
 Result<Scene> read_scene(const std::string& path);
 Result<Flight> read_flight(const std::string& path);
 
-// The path of a layer's asset: relative to the folder of the scene's file.
+// The path of a file that a scene names, of a layer's asset: relative to the folder of the scene's file.
+std::string path_in_scene(const std::string& scene_path, const std::string& name);
 std::string asset_path(const std::string& scene_path, const Layer& layer);
 
 // Texts that parse back to the same values, bit for bit. Same value, same bytes.

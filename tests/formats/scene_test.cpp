@@ -182,6 +182,55 @@ TEST(Scene, NamesThePlaceOfEveryMistakeInItsInstances) {
     for (size_t size = 0; size < kForest.size(); ++size) EXPECT_NE(scene_error(kForest.substr(0, size)), "(read)") << size;
 }
 
+const std::string kMeadow = R"({"version": 1, "layers": [
+  {"asset": "hills.ovl", "method": "terrain"},
+  {"asset": "meadow.ovl", "method": "wang-ldi:paper", "planting": {"lowest_m": 100, "highest_m": 900.5, "steepest": 0.4,
+    "mask": "a/mask.png", "density": "d.png", "fairing_tiles": 3, "seed": 77, "models": ["poppy.ovl", "rye.ovl"]}}]})";
+
+TEST(Scene, HoldsWhereWhatItPlantsStands) {
+    Result<Scene> scene = parse_scene(kMeadow, "s.json");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_FALSE(scene->layers[0].planting);
+    Planting wanted;
+    wanted.lowest_m = 100, wanted.highest_m = 900.5, wanted.steepest = 0.4, wanted.mask = "a/mask.png";
+    wanted.density = "d.png", wanted.fairing_tiles = 3, wanted.seed = 77, wanted.models = {"poppy.ovl", "rye.ovl"};
+    EXPECT_TRUE(scene->layers[1].planting == wanted);
+    std::string text = json_from_scene(*scene);
+    Result<Scene> again = parse_scene(text, "s.json");
+    ASSERT_TRUE(again) << again.error().message << text;
+    EXPECT_TRUE(json_from_scene(*again) == text);
+    EXPECT_TRUE(again->layers[1].planting == wanted);
+
+    scene = parse_scene(R"({"version":1,"layers":[{"asset":"a.ovl","method":"wang-ldi","planting":{}}]})", "s.json");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->layers[0].planting == Planting{});
+}
+
+TEST(Scene, NamesThePlaceOfEveryMistakeInItsPlanting) {
+    struct Case {
+        std::string from, to, message;
+    };
+    for (const Case& c : std::initializer_list<Case>{
+             {"wang-ldi:paper", "terrain", "s.json:3:60: /layers/1/planting: terrain plants nothing; wang-ldi does"},
+             {"900.5", "99", "s.json:3:98: /layers/1/planting/highest_m: 99 is below lowest_m, 100"},
+             {"0.4", "-1", "s.json:3:117: /layers/1/planting/steepest: -1 is outside 0..100"},
+             {"a/mask.png", "", "s.json:4:13: /layers/1/planting/mask: is empty; name a PNG"},
+             {"d.png", "/d.png", "s.json:4:38: /layers/1/planting/density: begins with /; name it relative to the scene's file"},
+             {"\"d.png\"", "3", "s.json:4:38: /layers/1/planting/density: is a number; text is wanted"},
+             {"fairing_tiles\": 3", "fairing_tiles\": 9", "s.json:4:64: /layers/1/planting/fairing_tiles: 9 is outside 0..8"},
+             {"fairing_tiles\": 3", "fairing_tiles\": 0.5",
+              "s.json:4:64: /layers/1/planting/fairing_tiles: 0.5 is no whole number"},
+             {"77", "1.5", "s.json:4:75: /layers/1/planting/seed: 1.5 is no whole number"},
+             {"77", "-1", "s.json:4:75: /layers/1/planting/seed: -1 is outside 0..4294967295"},
+             {"\"rye.ovl\"", "[]", "s.json:4:103: /layers/1/planting/models/1: is no text; name a baked chain of levels"},
+             {"rye.ovl", "", "s.json:4:103: /layers/1/planting/models/1: is empty; name a baked chain of levels"},
+             {"\"mask\"", "\"msk\"", "s.json:4:5: /layers/1/planting/msk: is not known here; did you mean mask?"},
+         }) {
+        EXPECT_EQ(scene_error(replaced(kMeadow, c.from, c.to)), c.message);
+    }
+    for (size_t size = 0; size < kMeadow.size(); ++size) EXPECT_NE(scene_error(kMeadow.substr(0, size)), "(read)") << size;
+}
+
 TEST(Flight, NamesThePlaceOfEveryMistake) {
     struct Case {
         std::string from, to, message;
@@ -293,6 +342,10 @@ TEST(Schema, OfScenesSaysWhatTheParserChecks) {
     EXPECT_EQ(schema["properties"]["error_px"]["default"].get<double>(), Scene{}.error_px);
     EXPECT_EQ(schema["$defs"]["camera"]["properties"]["fov_y_deg"]["default"].get<double>(), CameraDefaults{}.fov_y_deg);
     EXPECT_EQ(schema["$defs"]["light"]["properties"]["haze"]["default"].get<double>(), Light{}.haze);
+    const nlohmann::json& planting = schema["$defs"]["planting"]["properties"];
+    EXPECT_EQ(planting["steepest"]["default"].get<double>(), Planting{}.steepest);
+    EXPECT_EQ(planting["fairing_tiles"]["default"].get<double>(), Planting{}.fairing_tiles);
+    EXPECT_EQ(planting["seed"]["default"].get<double>(), Planting{}.seed);
 }
 
 TEST(Schema, OfFlightsSaysWhatTheParserChecks) {
