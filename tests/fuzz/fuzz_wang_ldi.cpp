@@ -30,7 +30,7 @@ void require(bool holds) {
     if (!holds) __builtin_trap();
 }
 
-void use(const wang_ldi::Ground& ground) {
+void use(const wang_ldi::PlantedTiles& ground) {
     require(!wang_ldi::fault_of_set(ground.set) && !wang_ldi::fault_of_models(ground.planting) &&
             !wang_ldi::fault_of_objects(ground.set, ground.planting));
     wang_ldi::TileSet set;
@@ -47,7 +47,7 @@ void use(const wang_ldi::Ground& ground) {
 void read_all(std::span<const std::byte> bytes) {
     Result<Reader> file = Reader::open_bytes(bytes, "fuzz");
     if (!file) return;
-    Result<wang_ldi::Ground> read = wang_ldi::read(*file);
+    Result<wang_ldi::PlantedTiles> read = wang_ldi::read(*file);
     if (read) use(*read);
     if (!read) require(read.error().exit != Exit::our_bug);
 }

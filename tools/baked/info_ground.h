@@ -7,9 +7,9 @@
 
 namespace overlook::baked {
 
-std::string ground_json(const wang_ldi::Ground& ground);
-void print_ground(const wang_ldi::Ground& ground);
+std::string ground_json(const wang_ldi::PlantedTiles& ground);
+void print_ground(const wang_ldi::PlantedTiles& ground);
 // Pictures of it into a folder, which is made where there is none.
-Result<void> write_sheet(const wang_ldi::Ground& ground, const std::string& folder);
+Result<void> write_sheet(const wang_ldi::PlantedTiles& ground, const std::string& folder);
 
 }  // namespace overlook::baked
