@@ -25,6 +25,8 @@ struct Transform {
     std::array<double, 3> translation_m{0, 0, 0};  // -1e9..1e9 each
     double rotation_z_deg = 0;                     // counter-clockwise seen from above (x towards y), -360..360
     double scale = 1;                              // 1e-6..1e6
+
+    bool operator==(const Transform&) const = default;
 };
 
 // Where an asset stands at the flight's time 0, and how it goes on from there: evenly.
@@ -68,6 +70,7 @@ struct Layer {
     std::string method;                                     // one of kMethods
     std::string variant;                                    // as in "lod-sprite:paper"; empty = the default one
     std::vector<std::pair<std::string, Setting>> settings;  // in the file's order; which there are, the method knows
+    std::optional<Planting> planting = {};                  // of method wang-ldi alone
 };
 
 struct Light {

@@ -86,7 +86,7 @@ Fault take_tile(Scan& scan, std::vector<Planted>& tile, size_t t) {
     return {};
 }
 
-Fault fault_of(const Ground& ground) {
+Fault fault_of(const PlantedTiles& ground) {
     if (Fault fault = fault_of_counts(ground.set)) return fault;
     if (Fault fault = fault_of_set(ground.set)) return fault;
     bool has_names = std::all_of(ground.planting.models.begin(), ground.planting.models.end(),
@@ -100,7 +100,7 @@ tl::unexpected<Error> broken(const Reader& file, const Fault& fault) {
     return bad_input("{}: W{}: {}", file.name(), fault.rule, fault.text);
 }
 
-Result<Ground> read_whole(const Reader& file) {
+Result<PlantedTiles> read_whole(const Reader& file) {
     const container::Section *tiles = file.find(kTilesTag), *planting = file.find(kPlantingTag);
     if (file.kind() != kKind || !tiles || !planting)
         return broken(file, {1, fmt::format("is no ground of Wang tiles (its kind is {})", container::tag_text(file.kind()))});
@@ -109,7 +109,7 @@ Result<Ground> read_whole(const Reader& file) {
     if (tiles->raw_bytes > kTilesBytesMax) return broken(file, {2, fmt::format("WTIL is of {} bytes", tiles->raw_bytes)});
     if (planting->raw_bytes > kPlantingBytesMax)
         return broken(file, {6, fmt::format("WPLT is of {} bytes", planting->raw_bytes)});
-    Ground ground;
+    PlantedTiles ground;
     auto bytes = file.read(*tiles, kTilesBytesMax);
     if (!bytes) return tl::unexpected(bytes.error());
     if (Fault fault = tiles_of_bytes(*bytes, ground.set)) return broken(file, fault);
@@ -183,7 +183,7 @@ Fault planting_of_bytes(std::span<const std::byte> bytes, Planting& planting) {
     return {};
 }
 
-Result<void> write(container::Writer& writer, const Ground& ground) {
+Result<void> write(container::Writer& writer, const PlantedTiles& ground) {
     if (Fault fault = fault_of(ground))
         return tl::unexpected(Error{Exit::our_bug, fmt::format("ground to write: W{}: {}", fault.rule, fault.text)});
     if (auto ok = writer.add(kTilesTag, container::kMustUnderstand, container::Codec::none, bytes_of_tiles(ground.set)); !ok)
@@ -191,7 +191,7 @@ Result<void> write(container::Writer& writer, const Ground& ground) {
     return writer.add(kPlantingTag, container::kMustUnderstand, container::Codec::zstd, bytes_of_planting(ground.planting));
 }
 
-Result<Ground> read(const Reader& file) {
+Result<PlantedTiles> read(const Reader& file) {
     try {
         return read_whole(file);
     } catch (const std::bad_alloc&) {
@@ -199,7 +199,7 @@ Result<Ground> read(const Reader& file) {
     }
 }
 
-Result<Ground> read(const std::string& path) {
+Result<PlantedTiles> read(const std::string& path) {
     auto file = Reader::open(path);
     if (!file) return tl::unexpected(file.error());
     return read(*file);

@@ -10,19 +10,19 @@ namespace overlook::wang_ldi {
 
 constexpr container::Tag kKind = container::tag("WANG");
 
-struct Ground {
+struct PlantedTiles {
     TileSet set;
     Planting planting;
 };
 
 // Adds the sections of a set and its planting (WTIL, WPLT) to a baked file. Same ground, same bytes. Exit::our_bug if it breaks a
 // rule of its own: "ground to write: W8: ...".
-Result<void> write(container::Writer& writer, const Ground& ground);
+Result<void> write(container::Writer& writer, const PlantedTiles& ground);
 
 // The file may be hostile; every failure is Exit::bad_input and names file, rule and place: "meadow.ovl: W5: tile 3 has a south
 // edge of colour 7, there are 2". Exit::impossible if there is not so much memory.
-Result<Ground> read(const std::string& path);
-Result<Ground> read(const container::Reader& file);
+Result<PlantedTiles> read(const std::string& path);
+Result<PlantedTiles> read(const container::Reader& file);
 
 // What each rule of these sections says, as container::rule_text.
 std::string_view rule_text(int rule);

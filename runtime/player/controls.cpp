@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace overlook::player {
 namespace {
 
@@ -51,7 +50,7 @@ void press(FrameStyle& style, const Presses& presses) {
         bool is_shaded = style.look.look == terrain::Look::shaded;
         style.look.look = is_shaded ? terrain::Look::wireframe : terrain::Look::shaded;
     }
-    if (presses.toggles_sources && style.method == Method::lod_sprite) style.shows_sources = !style.shows_sources;
+    if (presses.toggles_sources && shows_sources(style.method)) style.shows_sources = !style.shows_sources;
 }
 
 }  // namespace overlook::player

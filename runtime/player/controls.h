@@ -46,7 +46,7 @@ double changed_error_px(double error_px, int presses);
 struct Presses {
     int error = 0;                                            // +, less -
     int method = 0;                                           // M
-    bool toggles_wireframe = false, toggles_sources = false;  // F, not of lod-sprite; K, of it alone
+    bool toggles_wireframe = false, toggles_sources = false;  // F, of what has_wireframe(); K, of what shows_sources()
 };
 void press(FrameStyle& style, const Presses& presses);
 

@@ -11,6 +11,7 @@
 #include "runtime/player/method.h"
 #include "runtime/stream/stream.h"
 #include "runtime/terrain/draw.h"
+#include "runtime/wang_ldi/draw_frames.h"
 
 namespace overlook::player {
 
@@ -35,8 +36,9 @@ struct FrameRecord {
     double predicted_error_px = 0;
     // Of a frame by LOD-sprite, whose predicted error is the p99 over the pixels.
     std::optional<lod_sprite::FrameCounts> sprite;
-    std::optional<caveclod::FrameCounts> mesh;   // of a mesh that is refined
-    std::optional<discrete::FrameCounts> chain;  // of instances of a chain
+    std::optional<caveclod::FrameCounts> mesh;      // of a mesh that is refined
+    std::optional<discrete::FrameCounts> chain;     // of instances of a chain
+    std::optional<wang_ldi::FrameCounts> planting;  // of planted ground
     std::optional<StreamRecord> stream;
 };
 
@@ -46,11 +48,12 @@ struct FrameStyle {
     Thing thing = Thing::terrain;
     double error_px = 1;
     double morph = 0;            // of terrain, as Refiner::cut_by_pixels
-    bool shows_sources = false;  // of lod-sprite: what is sprite and what is not
+    bool shows_sources = false;  // of lod-sprite: what is sprite and what is not; of wang-ldi: levels and directions
     terrain::DrawOptions look;   // lod-sprite: of the shaded picture all but the wireframe; a mesh: the wireframe alone
     double dt_s = 1.0 / 60;      // since the frame before
     uint64_t most_triangles =
         0;  // of caveclod and caveclod:shared, which keep them by themselves: a frame's; 0 = as many as the error takes
+    bool is_pipelined = false;  // of wang-ldi, as FrameOptions
 };
 
 }  // namespace overlook::player

@@ -27,7 +27,7 @@ int play(const Options& options, const command::Common& common) {
     Result<Plan> plan = plan_from(options);
     if (!plan) return command::fail("player", plan.error());
     bool has_window = !options.headless && (options.image.empty() || has_display());
-    Result<Scene> scene = Scene::read(options.file, streaming_of(options, has_window));
+    Result<Scene> scene = Scene::read(options.file, streaming_of(options, has_window), !has_window);
     if (!scene) return command::fail("player", scene.error());
 
     Method method = plan->method.value_or(scene->method());
@@ -46,7 +46,8 @@ int play(const Options& options, const command::Common& common) {
 }  // namespace overlook::player
 
 int main(int argc, char** argv) {
-    CLI::App app("Flies over a baked terrain, a mesh or a scene: in a window, or --headless into pictures", "player");
+    CLI::App app("Flies over a baked terrain, a mesh, planted ground or a scene: in a window, or --headless into pictures",
+                 "player");
     overlook::command::Common common;
     overlook::player::Options options;
     overlook::player::add_options(app, options);

@@ -11,10 +11,11 @@
 namespace overlook::player {
 namespace {
 
-constexpr std::array<std::string_view, 13> kNames = {
-    "terrain",      "lod-sprite",         "lod-sprite:paper", "caveclod",       "caveclod:paper",  "caveclod:shared", "discrete",
-    "discrete:fsi", "discrete:fsi-paper", "discrete:switch",  "discrete:blend", "discrete:dither", "discrete:late"};
-static_assert(size_t(Method::discrete_late) + 1 == kNames.size());
+constexpr std::array<std::string_view, 15> kNames = {
+    "terrain",         "lod-sprite",      "lod-sprite:paper", "caveclod",           "caveclod:paper",
+    "caveclod:shared", "discrete",        "discrete:fsi",     "discrete:fsi-paper", "discrete:switch",
+    "discrete:blend",  "discrete:dither", "discrete:late",    "wang-ldi",           "wang-ldi:paper"};
+static_assert(size_t(Method::wang_ldi_paper) + 1 == kNames.size());
 constexpr std::array<SettingKind, 1> kErrorAlone = {SettingKind{"error-px", 0.001, 10000, 1}};
 
 std::span<const SettingKind> settings_of(Method method) {
@@ -27,6 +28,9 @@ std::span<const SettingKind> settings_of(Method method) {
         case Method::caveclod_paper:
         case Method::caveclod_shared:
             return caveclod::setting_kinds(variant_of(method));
+        case Method::wang_ldi:
+        case Method::wang_ldi_paper:
+            return wang_ldi::setting_kinds(planting_variant_of(method));
         case Method::terrain:
             break;
         default:
@@ -63,21 +67,16 @@ std::optional<double> value_of(const scene::Setting& setting, const SettingKind&
     return *number;
 }
 
-// The method and its name, of one that can be drawn here.
-Result<Method> method_of(const std::string& path, const scene::Layer& layer) {
+// Of "/layers/PLACE".
+Result<Method> method_of(const std::string& path, const scene::Layer& layer, size_t place) {
     std::string whole = layer.variant.empty() ? layer.method : layer.method + ":" + layer.variant;
     auto found = std::find(kNames.begin(), kNames.end(), whole);
     if (found != kNames.end()) return Method(found - kNames.begin());
-    if (std::find(kNames.begin(), kNames.end(), layer.method) == kNames.end()) {
-        return impossible(
-            "{}: /layers/0/method: the player cannot draw {} yet; it draws terrain, lod-sprite, caveclod and discrete", path,
-            layer.method);
-    }
-    return bad_input("{}: /layers/0/method: {} has no variant {}", path, layer.method, layer.variant);
+    return bad_input("{}: /layers/{}/method: {} has no variant {}", path, place, layer.method, layer.variant);
 }
 
 // A setting by its name in scenes.
-Result<SettingKind> kind_of(const std::string& path, Method method, const std::string& name) {
+Result<SettingKind> kind_of(const std::string& path, Method method, const std::string& name, size_t place) {
     std::span<const SettingKind> kinds = settings_of(method);
     auto found = std::find_if(kinds.begin(), kinds.end(), [&](const SettingKind& kind) { return scene_name(kind.name) == name; });
     if (found != kinds.end()) return *found;
@@ -85,7 +84,7 @@ Result<SettingKind> kind_of(const std::string& path, Method method, const std::s
     for (const SettingKind& kind : kinds) names.push_back(scene_name(kind.name));
     std::vector<std::string_view> known(names.begin(), names.end());
     std::string_view near = json::nearest(std::string_view(name).substr(0, 64), known);
-    return bad_input("{}: /layers/0/settings/{}: {} has no such setting; did you mean {}?", path, name.substr(0, 64),
+    return bad_input("{}: /layers/{}/settings/{}: {} has no such setting; did you mean {}?", path, place, name.substr(0, 64),
                      name_of(method), near);
 }
 
@@ -109,23 +108,27 @@ std::string_view name_of(Method method) {
 }
 
 std::string_view name_of(Thing thing) {
+    if (thing == Thing::planting) return "planting";
     if (thing == Thing::chain) return "chain of levels";
     return thing == Thing::mesh ? "mesh" : "terrain";
 }
 
 std::string_view things_of(Method method) {
+    if (method >= Method::wang_ldi) return "plantings";
     if (method == Method::discrete) return "meshes and chains of levels";
     if (method > Method::discrete) return "chains of levels";
     return method >= Method::caveclod ? "meshes" : "terrains";
 }
 
 bool draws(Method method, Thing thing) {
+    if (thing == Thing::planting || method >= Method::wang_ldi) return (thing == Thing::planting) == (method >= Method::wang_ldi);
     if (thing == Thing::chain) return method >= Method::discrete;
     if (method > Method::discrete) return false;
     return method == Method::lod_sprite || (method >= Method::caveclod) == (thing == Thing::mesh);
 }
 
 Method default_method(Thing thing) {
+    if (thing == Thing::planting) return Method::wang_ldi;
     if (thing == Thing::chain) return Method::discrete;
     return thing == Thing::mesh ? Method::caveclod : Method::terrain;
 }
@@ -135,7 +138,15 @@ bool takes_budgets(Method method) {
 }
 
 bool has_wireframe(Method method) {
-    return method == Method::terrain || method >= Method::caveclod;
+    return method == Method::terrain || (method >= Method::caveclod && method < Method::wang_ldi);
+}
+
+bool shows_sources(Method method) {
+    return method == Method::lod_sprite || method >= Method::wang_ldi;
+}
+
+wang_ldi::Variant planting_variant_of(Method method) {
+    return method == Method::wang_ldi_paper ? wang_ldi::Variant::paper : wang_ldi::Variant::own;
 }
 
 caveclod::Variant variant_of(Method method) {
@@ -174,19 +185,19 @@ Result<Method> parse_method(std::string_view text) {
                        json::nearest(text.substr(0, 64), kNames), fmt::join(kNames, ", "));
 }
 
-Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described) {
-    const scene::Layer& layer = described.layers.front();
+Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described, size_t place) {
+    const scene::Layer& layer = described.layers[place];
     LayerMethod read;
-    Result<Method> method = method_of(path, layer);
+    Result<Method> method = method_of(path, layer, place);
     if (!method) return tl::unexpected(method.error());
     read.method = *method;
 
     std::vector<std::pair<SettingKind, double>> values;
     for (const auto& [name, setting] : layer.settings) {
-        Result<SettingKind> kind = kind_of(path, read.method, name);
+        Result<SettingKind> kind = kind_of(path, read.method, name, place);
         if (!kind) return tl::unexpected(kind.error());
         std::optional<double> value = value_of(setting, *kind);
-        if (!value) return bad_input("{}: /layers/0/settings/{}: {}", path, name, wanted(*kind));
+        if (!value) return bad_input("{}: /layers/{}/settings/{}: {}", path, place, name, wanted(*kind));
         if (kind->name == "error-px") described.error_px = *value;
         values.emplace_back(*kind, *value);
     }
@@ -195,11 +206,14 @@ Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& descr
     read.paper = with_error(read.paper, described.error_px);
     read.mesh = with_error(read.mesh, described.error_px);
     read.chain = with_error(discrete::defaults_of(discrete_variant_of(read.method)), described.error_px);
+    read.planting = wang_ldi::defaults_of(planting_variant_of(read.method));
+    read.planting.error_px = described.error_px;
     for (const auto& [kind, value] : values) {
         if (read.method == Method::lod_sprite) lod_sprite::set(read.sprite, kind.name, value);
         if (read.method == Method::lod_sprite_paper) lod_sprite::paper::set(read.paper, kind.name, value);
         if (read.method >= Method::caveclod && read.method < Method::discrete) caveclod::set(read.mesh, kind.name, value);
-        if (read.method >= Method::discrete) discrete::set(read.chain, kind.name, value);
+        if (read.method >= Method::wang_ldi) wang_ldi::set(read.planting, kind.name, value);
+        if (read.method >= Method::discrete && read.method < Method::wang_ldi) discrete::set(read.chain, kind.name, value);
         read.sets_chain = read.sets_chain || (read.method == Method::discrete && kind.name != "error-px");
     }
     if (Result<void> checked = check_promises(path, read); !checked) return tl::unexpected(checked.error());

@@ -10,13 +10,14 @@
 #include "runtime/discrete/settings.h"
 #include "runtime/lod_sprite/draw_frames.h"
 #include "runtime/lod_sprite/draw_paper_frames.h"
+#include "runtime/wang_ldi/settings.h"
 
 namespace overlook::player {
 
-enum class Thing { terrain, mesh, chain };
+enum class Thing { terrain, mesh, chain, planting };
 
 // Of terrains; lod-sprite draws meshes too; of meshes from caveclod on; of chains of levels from discrete on, which of a mesh
-// draws levels for the whole of it and of a chain the same as discrete:fsi.
+// draws levels for the whole of it and of a chain the same as discrete:fsi; of planted ground wang-ldi.
 enum class Method {
     terrain,
     lod_sprite,
@@ -30,19 +31,23 @@ enum class Method {
     discrete_switch,
     discrete_blend,
     discrete_dither,
-    discrete_late
+    discrete_late,
+    wang_ldi,
+    wang_ldi_paper
 };
 
 // As typed: "terrain", "lod-sprite", "lod-sprite:paper", "caveclod" ...
 std::string_view name_of(Method method);
 bool draws(Method method, Thing thing);
-std::string_view name_of(Thing thing);      // "terrain", "mesh", "chain of levels"
+std::string_view name_of(Thing thing);      // "terrain", "mesh", "chain of levels", "planting"
 std::string_view things_of(Method method);  // what it draws: "terrains", "meshes", "chains of levels"
 Method default_method(Thing thing);
 bool takes_budgets(Method method);  // of triangles or milliseconds, by the error asked for
 bool has_wireframe(Method method);
 caveclod::Variant variant_of(Method method);           // of one of caveclod's
 discrete::Variant discrete_variant_of(Method method);  // of one of discrete's
+wang_ldi::Variant planting_variant_of(Method method);  // of one of wang-ldi's
+bool shows_sources(Method method);                     // when asked to
 // The one that M goes on to, of those that draw the thing; the last is followed by the first.
 Method next(Method method, Thing thing);
 
@@ -50,7 +55,8 @@ Method next(Method method, Thing thing);
 //   "--method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, ...)"
 Result<Method> parse_method(std::string_view text);
 
-// Method and settings of a scene's one layer; its error_px, if it has one, becomes the scene's. Fails with Exit::bad_input
+// Method and settings of a scene's layer, whose other layers do not matter; its error_px, if it has one, becomes the scene's.
+// Fails with Exit::bad_input
 //   "a.json: /layers/0/method: terrain has no variant paper"
 //   "a.json: /layers/0/settings/eror_px: terrain has no such setting; did you mean error_px?"
 //   "a.json: /layers/0/settings/error_px: a number from 0.001 to 10000 is wanted"
@@ -58,8 +64,6 @@ Result<Method> parse_method(std::string_view text);
 //   "a.json: /layers/0/settings/near: true or false is wanted"
 //   "a.json: /layers/0/settings/keyframe: at-once, thread or sliced is wanted"
 //   "a.json: /layers/0/settings/low_error_px: 0.5 is less than the error_px of 1"
-// with Exit::impossible
-//   "a.json: /layers/0/method: the player cannot draw wang-ldi yet; it draws terrain, lod-sprite, caveclod and discrete"
 struct LayerMethod {
     Method method = Method::terrain;
     // Both with the scene's error_px; what it does not say of their other promises keeps its default ratio to it.
@@ -68,8 +72,9 @@ struct LayerMethod {
     caveclod::FrameOptions mesh;
     discrete::FrameOptions chain;  // of `method`'s variant
     bool sets_chain = false;       // something that only chains have
+    wang_ldi::FrameOptions planting;
 };
-Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described);
+Result<LayerMethod> layer_method_of(const std::string& path, scene::Scene& described, size_t place = 0);
 
 // The same with error_px; what is promised elsewhere keeps its ratio to it.
 lod_sprite::FrameOptions with_error(lod_sprite::FrameOptions options, double error_px);

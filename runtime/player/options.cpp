@@ -79,15 +79,18 @@ Result<void> check_fit(const Options& options, Method method, Thing thing) {
         bool is_given, is_taken;
         const char* takers = "terrain does";
     };
+    bool is_planting = method >= Method::wang_ldi;
     bool is_terrain = method == Method::terrain, is_triangles = has_wireframe(method);
-    const Rule kRules[] = {
-        {"--triangles", options.triangles > 0, takes_budgets(method)},
-        {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
-        {"--morph", options.sets_morph, is_terrain},
-        {"--stream-memory", options.stream_memory_bytes > 0, is_terrain || method == Method::caveclod, "terrain and caveclod do"},
-        {"--wireframe", options.wireframe, is_triangles},
-        {"--split-picture", options.split_picture, is_terrain},
-        {"--haze", options.sets_haze, thing == Thing::terrain}};
+    const Rule kRules[] = {{"--triangles", options.triangles > 0, takes_budgets(method)},
+                           {"--frame-ms", options.frame_ms > 0, takes_budgets(method)},
+                           {"--morph", options.sets_morph, is_terrain},
+                           {"--stream-memory", options.stream_memory_bytes > 0,
+                            is_terrain || method == Method::caveclod || is_planting, "terrain, caveclod and wang-ldi do"},
+                           {"--wireframe", options.wireframe, is_triangles},
+                           {"--split-picture", options.split_picture, is_terrain},
+                           {"--pipelined", options.pipelined, is_planting, "wang-ldi does"},
+                           {"--rings", options.rings, is_planting, "wang-ldi does"},
+                           {"--haze", options.sets_haze, thing == Thing::terrain || is_planting}};
     for (const Rule& rule : kRules) {
         if (rule.is_given && !rule.is_taken)
             return bad_command("{}: {} does not take it; --method {}", rule.name, name_of(method), rule.takers);
@@ -112,7 +115,7 @@ void choose_samples(Plan& plan, bool is_software, bool is_window) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_option("file", options.file, "A baked terrain, mesh or chain of levels, or a scene of one")
+    app.add_option("file", options.file, "A baked terrain, mesh, chain of levels or planting, or a scene of one")
         ->required()
         ->type_name("FILE.ovl|SCENE.json");
     app.add_flag("--headless", options.headless, "Draw without a window");
@@ -129,13 +132,14 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--frames", options.frames, "Frames to draw; then end. Of a flight at most these")->type_name("N");
     app.add_option("--image", options.image, "Picture to write: the last frame, or every frame with a number such as %04d")
         ->type_name("FILE.png");
-    app.add_option(
-           "--method", options.method,
-           "What to draw with: a terrain by terrain, lod-sprite or lod-sprite:paper, a mesh by caveclod, caveclod:paper, "
-           "caveclod:shared, discrete or lod-sprite, a chain of levels by discrete, discrete:fsi-paper, discrete:switch, "
-           "discrete:blend, discrete:dither or discrete:late; default what the scene says, or the first. In the window M changes "
-           "it, K shows "
-           "what lod-sprite takes from where")
+    app.add_option("--method", options.method,
+                   "What to draw with: a terrain by terrain, lod-sprite or lod-sprite:paper, a mesh by caveclod, caveclod:paper, "
+                   "caveclod:shared, discrete or lod-sprite, a chain of levels by discrete, discrete:fsi-paper, discrete:switch, "
+                   "discrete:blend, discrete:dither or discrete:late, a planting by wang-ldi or wang-ldi:paper (layered depth "
+                   "images for all "
+                   "tiles, the nearest too); default what the scene says, or the first. In the window M changes it, K shows what "
+                   "lod-sprite "
+                   "takes from where, and wang-ldi's levels and directions")
         ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,
                                             "Triangles a frame at most: the error rises above --error-px where it must")
@@ -153,6 +157,9 @@ void add_options(CLI::App& app, Options& options) {
         ->capture_default_str()
         ->each([&options](const std::string&) { options.sets_error_px = true; });
     app.add_flag("--wireframe", options.wireframe, "Draw the triangles' edges");
+    app.add_flag("--rings", options.rings, "Show a planting's levels and directions by colours");
+    app.add_flag("--pipelined", options.pipelined,
+                 "Warp a planting's next picture while this one is drawn: more pictures, each a frame late");
     app.add_flag("--split-picture", options.split_picture, "Left half wireframe, right half shaded");
     app.add_option("--haze", options.haze, "How hazy the air is: 0 = clear, 1 = a fair day")
         ->capture_default_str()
@@ -161,8 +168,9 @@ void add_options(CLI::App& app, Options& options) {
                    "Samples a pixel: 1 (fast), 2, 4 or 8 (smooth); default 4, or 1 in a window drawn by software");
     command::add_bytes_option(
         app, "--stream-memory", options.stream_memory_bytes,
-        "Keep at most so much of the terrain or mesh in memory and read the rest as it is needed: bytes, or with K, M, "
-        "G; of a mesh, or a terrain baked with --streamed. Where it is too little the picture is coarser, and says so");
+        "Keep at most so much of the terrain, the mesh or a planting's images in memory and read the rest as it is needed: "
+        "bytes, "
+        "or with K, M, G; of a terrain, one baked with --streamed. Where it is too little the picture is coarser, and says so");
     command::add_bytes_option(app, "--upload-budget", options.upload_budget_bytes,
                               "Of what is streamed, take over at most so much in a frame; default 16M")
         ->each([&options](const std::string&) { options.sets_upload_budget = true; });
@@ -209,7 +217,8 @@ Result<Plan> plan_from(const Options& options) {
         if (!method) return tl::unexpected(method.error());
         Thing thing = draws(*method, Thing::terrain) ? Thing::terrain
                       : draws(*method, Thing::mesh)  ? Thing::mesh
-                                                     : Thing::chain;  // till the file is read
+                      : draws(*method, Thing::chain) ? Thing::chain
+                                                     : Thing::planting;  // till the file is read
         if (Result<void> fit = check_fit(options, *method, thing); !fit) return tl::unexpected(fit.error());
         plan.method = *method;
     }

@@ -33,6 +33,8 @@ struct Options {
     std::string method;                     // empty = what the scene says, or by the file's kind
     bool wireframe = false;
     bool split_picture = false;
+    bool pipelined = false;  // of plantings: the next frame is warped while this one is drawn
+    bool rings = false;      // of plantings: levels and directions by colours
     double haze = 1;
     bool sets_error_px = false, sets_haze = false, sets_morph = false;  // on the command line, which goes before the scene
     uint64_t stream_memory_bytes = 0;                                   // of what is read in parts; 0 = read whole

@@ -15,6 +15,20 @@ std::string megabytes(uint64_t bytes) {
     return fmt::format("{:.2f} MB", double(bytes) / 1e6);
 }
 
+// Of planted ground: what was warped, what stands in for what, and whether the eye is where images were not sampled for.
+void planting_lines(const wang_ldi::FrameCounts& planting, bool shows_rings) {
+    text_line(fmt::format("planting {} tiles, {} far blocks; {} samples in {:.1f} ms by {} threads{}",
+                          planting.field.tiles_listed, planting.field.blocks_listed, planting.warp.samples, planting.warp_ms,
+                          planting.threads, planting.latency_frames > 0 ? ", a frame late" : ""));
+    if (planting.images.stand_ins + planting.images.missing > 0)
+        text_line(fmt::format("       {} of {} images have others in their place, {} are missing", planting.images.stand_ins,
+                              planting.images.images, planting.images.missing));
+    if (planting.field.outside_cell > 0)
+        text_line(fmt::format("       outside the cell: {} tiles are seen from where they were not sampled for",
+                              planting.field.outside_cell));
+    if (shows_rings) text_line("hues: levels, from near to far; dark and light: directions");
+}
+
 // Which method draws; of LOD-sprite what its keys do.
 void method_lines(const OverlayText& text) {
     text_line(fmt::format("method {}", name_of(text.method)));
@@ -29,10 +43,14 @@ void method_lines(const OverlayText& text) {
                               mesh.is_settled ? "" : "; more to come"));
         if (mesh.wrong_corner_count > 0) text_line(fmt::format("       {} wrong corners", mesh.wrong_corner_count));
     }
+    if (text.frame->planting) planting_lines(*text.frame->planting, text.shows_sources);
     if (text.frame->stream) {
         const StreamRecord& stream = *text.frame->stream;
         text_line(fmt::format("stream {} of {} there, {} {} asked for, {} without room", megabytes(stream.counts.resident_bytes),
-                              megabytes(stream.budget_bytes), stream.counts.asked_count, text.frame->mesh ? "blocks" : "tiles",
+                              megabytes(stream.budget_bytes), stream.counts.asked_count,
+                              text.frame->mesh       ? "blocks"
+                              : text.frame->planting ? "images"
+                                                     : "tiles",
                               stream.counts.refused_count));
         if (text.frame->mesh)
             text_line(fmt::format("       {} of {} blocks; what is missing is {:.2f} px", stream.resident_block_count,
@@ -54,7 +72,10 @@ void method_lines(const OverlayText& text) {
 
 // What the keys do with this method.
 std::string key_line(Method method) {
-    std::string looks = has_wireframe(method) ? "F wireframe, " : method == Method::lod_sprite ? "K sources, " : "";
+    std::string looks = has_wireframe(method)          ? "F wireframe, "
+                        : method == Method::lod_sprite ? "K sources, "
+                        : shows_sources(method)        ? "K rings, "
+                                                       : "";
     return "+ - error, M method, " + looks + "H this text, P picture, R record, Esc ends";
 }
 

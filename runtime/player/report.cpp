@@ -30,10 +30,30 @@ Json summary_of(const std::vector<double>& values) {
             {"max", percentile(values, 1.00)}};
 }
 
+void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
+    const wang_ldi::FieldCounts& field = planting.field;
+    json["tiles"] = field.tiles_listed;
+    json["far_blocks"] = field.blocks_listed;
+    json["outside_cell_tiles"] = field.outside_cell;
+    json["cut_tiles"] = field.cut_tiles;
+    json["displaced_tiles"] = field.displaced_tiles;
+    json["images"] = planting.images.images;
+    json["stand_in_images"] = planting.images.stand_ins;
+    json["missing_images"] = planting.images.missing;
+    json["samples_listed"] = field.samples;
+    json["samples_warped"] = planting.warp.samples;
+    json["samples_drawn"] = planting.warp.samples_drawn;
+    json["pixels_written"] = planting.warp.pixels_written;
+    json["list_ms"] = planting.list_ms;
+    json["warp_ms"] = planting.warp_ms;
+    json["warp_threads"] = planting.threads;
+    json["latency_frames"] = planting.latency_frames;
+}
+
 void put_stream(const FrameRecord& frame, Json& json) {
     const StreamRecord& stream = *frame.stream;
     bool is_mesh = frame.mesh.has_value();
-    const char* what = is_mesh ? "blocks" : "tiles";
+    const char* what = is_mesh ? "blocks" : frame.planting ? "images" : "tiles";
     json["resident_bytes"] = stream.counts.resident_bytes;
     json["streamed_bytes"] = stream.counts.uploaded_bytes;
     json[fmt::format("asked_{}", what)] = stream.counts.asked_count;
@@ -43,7 +63,7 @@ void put_stream(const FrameRecord& frame, Json& json) {
         json["blocks"] = stream.block_count;
         json["resident_blocks"] = stream.resident_block_count;
         json["missing_error_px"] = frame.mesh->missing_px;
-    } else {
+    } else if (!frame.planting) {
         json["stopped_triangles"] = stream.stopped_count;
     }
 }
@@ -71,6 +91,7 @@ Json frame_json(const FrameRecord& frame) {
         json["under_way"] = frame.chain->fading_count;
         json["draw_calls"] = frame.chain->draw_call_count;
     }
+    if (frame.planting) put_planting(*frame.planting, json);
     if (frame.stream) put_stream(frame, json);
     if (!frame.sprite) return json;
     const lod_sprite::FrameCounts& sprite = *frame.sprite;
@@ -123,6 +144,29 @@ std::string keyframes_text(const std::vector<FrameRecord>& frames) {
                        with_commas(key_triangles(frames)), why.empty() ? "" : why + ")");
 }
 
+// ", 1,234,567 samples of 300 tiles warped in 12.3 ms by 2 threads; ...", or nothing.
+std::string planting_text(const std::vector<FrameRecord>& frames) {
+    if (!frames.front().planting) return "";
+    auto middle = [&](auto value) {
+        return percentile(values_of(frames, [&](const FrameRecord& frame) { return double(value(*frame.planting)); }), 0.5);
+    };
+    using Counts = wang_ldi::FrameCounts;
+    std::string text = fmt::format(", {} samples of {} tiles warped in {:.1f} ms by {} thread{}",
+                                   with_commas(uint64_t(middle([](const Counts& c) { return c.warp.samples; }))),
+                                   with_commas(uint64_t(middle([](const Counts& c) { return c.field.tiles_listed; }))),
+                                   middle([](const Counts& c) { return c.warp_ms; }), frames.front().planting->threads,
+                                   frames.front().planting->threads == 1 ? "" : "s");
+    auto most = [&](auto value) {
+        return uint64_t(
+            percentile(values_of(frames, [&](const FrameRecord& frame) { return double(value(*frame.planting)); }), 1));
+    };
+    uint64_t outside = most([](const Counts& c) { return c.field.outside_cell; });
+    uint64_t lacking = most([](const Counts& c) { return c.images.stand_ins + c.images.missing; });
+    if (outside > 0) text += fmt::format(", up to {} tiles from where they were not sampled for", with_commas(outside));
+    if (lacking > 0) text += fmt::format(", up to {} images not there yet", with_commas(lacking));
+    return text;
+}
+
 Json summaries(const std::vector<FrameRecord>& frames) {
     auto of = [&](auto member) {
         return summary_of(values_of(frames, [member](const FrameRecord& frame) { return double(frame.*member); }));
@@ -168,11 +212,12 @@ std::string summary_line(const Plan& plan, const gl::Renderer& renderer, const s
         return percentile(values_of(frames, [member](const FrameRecord& frame) { return double(frame.*member); }), 0.5);
     };
     return fmt::format(
-        "{} frame{} of {} triangles{}, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
+        "{} frame{} of {} triangles{}{}, refined in {:.2f} ms, drawn in {:.1f} ms by {}{}; error asked {} px, predicted "
         "{:.2f} px",
         with_commas(frames.size()), frames.size() == 1 ? "" : "s", with_commas(uint64_t(middle(&FrameRecord::triangle_count))),
-        keyframes_text(frames), middle(&FrameRecord::refine_ms), middle(&FrameRecord::draw_ms), renderer.name,
-        renderer.is_software ? " (software)" : "", plan.options.error_px, middle(&FrameRecord::predicted_error_px));
+        keyframes_text(frames), planting_text(frames), middle(&FrameRecord::refine_ms), middle(&FrameRecord::draw_ms),
+        renderer.name, renderer.is_software ? " (software)" : "", plan.options.error_px,
+        middle(&FrameRecord::predicted_error_px));
 }
 
 Result<void> deliver_report(const Plan& plan, const command::Common& common, const gl::Renderer& renderer,

@@ -30,18 +30,24 @@ double cost_of(const Options& options, const FrameRecord& frame);
 
 class Scene {
   public:
-    // Reads a baked terrain, mesh or chain of levels, or (a name that ends in .json) a scene with one, or with several chains.
-    // streaming: it is read in parts; a terrain is then drawn by its triangles, a mesh by caveclod. Needs no OpenGL. Fails as
-    // scene::read_scene, layer_method_of, read_terrain, read_mesh, read_chains and the two that stream, with Exit::impossible:
+    // Reads a baked terrain, mesh, chain of levels or planting (on a plain), or (a name that ends in .json) a scene with one,
+    // with several chains, or with a planting on a terrain. streaming: it is read in parts; a terrain is then drawn by its
+    // triangles, a mesh by caveclod, of a planting the images. A planting's always are: without it, within 1 GiB. waits: then
+    // every picture waits for them. Needs no OpenGL. Fails as scene::read_scene, layer_method_of, read_terrain, read_mesh,
+    // read_chains, the two that stream and read_planting, with Exit::impossible:
     //   "a.json: /layers/1: hills.ovl is a terrain; of scenes of several layers the player draws chains of levels alone"
     //   "a.json: /layers/1: asks for another method or settings than /layers/0; chains in one picture are drawn alike"
-    //   "tree.ovl: a chain of levels is read whole; --stream-memory is of terrains and meshes"
+    //   "tree.ovl: a chain of levels is read whole; --stream-memory is of terrains, meshes and plantings"
+    //   "a.json: /layers/2: meadow.ovl is a planting; the player draws one, on one terrain or a plain"
     // and with Exit::bad_input:
     //   "a.json: /layers/0/method: caveclod draws meshes, and valley.ovl is a terrain"
     //   "a.json: /layers/0/settings: duck.ovl is a mesh, of which discrete takes error_px alone"
     //   "a.json: /layers/0/instances: duck.ovl is a mesh; chains of levels have instances"
-    //   "a.ovl: a file of kind WLDI cannot be drawn; a baked terrain, mesh or chain of levels is wanted"
-    static Result<Scene> read(const std::string& path, const std::optional<Streaming>& streaming = std::nullopt);
+    //   "a.json: /layers/0/method: lod-sprite; the ground of a planting is drawn by terrain"
+    //   "a.json: /layers/1/transform: a planting stands where its ground is; move the terrain"
+    //   "a.ovl: a file of kind ABCD cannot be drawn; a baked terrain, mesh, chain of levels or planting is wanted"
+    static Result<Scene> read(const std::string& path, const std::optional<Streaming>& streaming = std::nullopt,
+                              bool waits = true);
     // Puts it on the graphics card. Needs a current context; must be called once before draw(). second: how a context beside it
     // is made, for keys that are drawn by a thread.
     Result<void> upload(const gl::SecondContextMaker& second = gl::second_context) { return subject_->upload(second); }
@@ -59,6 +65,10 @@ class Scene {
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style);
 
   private:
+    // Of a layer that plants, and its ground.
+    Result<void> read_planted(const std::string& path, std::span<const std::string> assets, size_t place,
+                              const Streaming& streaming);
+
     scene::Scene described_;
     scene::Transform transform_;
     LayerMethod layer_;

@@ -1,4 +1,4 @@
-// What is flown over: a terrain, a mesh, or instances of chains of levels.
+// What is flown over: a terrain, a mesh, instances of chains of levels, or planted ground.
 #pragma once
 
 #include <cstdint>
@@ -57,5 +57,15 @@ struct Streaming {
 // caveclod::MeshStream::open.
 Result<std::unique_ptr<Subject>> read_streamed_terrain(container::Reader file, const Streaming& streaming);
 Result<std::unique_ptr<Subject>> read_streamed_mesh(container::Reader file, const LayerMethod& layer, const Streaming& streaming);
+
+// What is planted where, and what it stands on.
+struct PlantingLayer {
+    container::Reader file;
+    std::optional<container::Reader> ground;  // a terrain; none: a plain
+    scene::Planting planting;
+    std::string scene_path;  // of the scene that says so
+};
+// Its images are streamed. Fails as terrain::read and wang_ldi::PlantedLand::read.
+Result<std::unique_ptr<Subject>> read_planting(PlantingLayer planting, const LayerMethod& layer, const Streaming& streaming);
 
 }  // namespace overlook::player

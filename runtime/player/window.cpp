@@ -241,7 +241,15 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
 
     Flight flight;
     flight.camera = view::camera_at(plan.flight, 0, plan.base);
-    flight.style = {*plan.method, scene.subject().thing(), plan.options.error_px, plan.options.morph, false, plan.draw, 0, plan.options.triangles};
+    flight.style = {*plan.method,
+                    scene.subject().thing(),
+                    plan.options.error_px,
+                    plan.options.morph,
+                    plan.options.rings,
+                    plan.draw,
+                    0,
+                    plan.options.triangles,
+                    plan.options.pipelined};
     view::ErrorController controller(budget_of(plan.options, flight.style.method, flight.style.error_px));
     std::optional<gl::Target> target;
     std::vector<FrameRecord> records;

@@ -246,8 +246,12 @@ void Drawing::set_camera(const gl::Program& program, const view::Camera& camera,
     glUniform1i(program.at("colours"), 0);
     glUniform2f(program.at("height_range_m"), float(lowest_m_), float(highest_m_));
     glUniform2f(program.at("place_per_m"), float(1 / width_m), float(-1 / height_m));
-    glUniform1f(program.at("haze_per_m"), float(0.5 * options.haze / std::hypot(width_m, height_m)));
+    glUniform1f(program.at("haze_per_m"), float(haze_per_m(options)));
     glUniform1f(program.at("line_px"), float(options.line_px));
+}
+
+double Drawing::haze_per_m(const DrawOptions& options) const {
+    return 0.5 * options.haze / std::hypot(metres_per_column_ * width_, metres_per_row_ * height_);
 }
 
 void Drawing::draw_sky(const view::Camera& camera, const DrawOptions& options) const {

@@ -62,6 +62,9 @@ class Drawing {
                    gl::TriangleRange range = {});
     void draw_sky(const view::Camera& camera, const DrawOptions& options) const;  // where nothing is drawn yet
 
+    // How much of the air before a metre's distance hides what is behind it, as its own shaders take it.
+    double haze_per_m(const DrawOptions& options) const;
+
     // What the last draw() or take() sent to the card, and the tiles since the one before.
     uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 

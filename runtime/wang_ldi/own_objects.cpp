@@ -4,7 +4,7 @@
 
 namespace overlook::wang_ldi {
 
-ObjectMap::ObjectMap(const Ground& ground, size_t tile, uint32_t side_px)
+ObjectMap::ObjectMap(const PlantedTiles& ground, size_t tile, uint32_t side_px)
     : tile_m_(ground.planting.tile_size_m), objects_(ground.planting.tiles[tile]), of_pixel_(size_t(side_px) * side_px, 0) {
     std::vector<Planted> reaching_in = overhang(ground.set, ground.planting, tile);
     objects_.insert(objects_.end(), reaching_in.begin(), reaching_in.end());

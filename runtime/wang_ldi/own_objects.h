@@ -14,7 +14,7 @@ namespace overlook::wang_ldi {
 class ObjectMap {
   public:
     // ground has the tile; side_px as the level's. O(side_px^2 * objects).
-    ObjectMap(const Ground& ground, size_t tile, uint32_t side_px);
+    ObjectMap(const PlantedTiles& ground, size_t tile, uint32_t side_px);
 
     // Only those samples of the image that stand on objects whose middles lie in the square of the tile's size from low_m on, in
     // the tile's own frame: {0, 0}: its own ones, without those that reach in; {-tile_m, 0}: those of the tile to the west, as

@@ -24,7 +24,7 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-Result<void> check(const ImageReader& images, const Ground& ground) {
+Result<void> check(const ImageReader& images, const PlantedTiles& ground) {
     const ImageSet& set = images.set();
     if (set.tile_count == ground.set.tiles.size() && set.tile_m == ground.planting.tile_size_m) return {};
     return bad_input("images of {} tiles of {:g} m, planted are {} of {:g} m", set.tile_count, set.tile_m,
@@ -140,7 +140,7 @@ uint32_t columns_for(uint32_t count) {
 
 }  // namespace
 
-Result<ImageRgb8> tiles_from_above(const ImageReader& images, const Ground& ground, const PortraitOptions& options) {
+Result<ImageRgb8> tiles_from_above(const ImageReader& images, const PlantedTiles& ground, const PortraitOptions& options) {
     if (auto checked = check(images, ground); !checked) return tl::unexpected(checked.error());
     const ImageSet& set = images.set();
     uint32_t count = std::min(set.tile_count, options.most_tiles), level = level_of_side(set, options.width_px);
@@ -168,7 +168,7 @@ Result<ImageRgb8> tiles_from_above(const ImageReader& images, const Ground& grou
     return plate.picture();
 }
 
-Result<ImageRgb8> tiles_from_aside(const ImageReader& images, const Ground& ground, const PortraitOptions& options) {
+Result<ImageRgb8> tiles_from_aside(const ImageReader& images, const PlantedTiles& ground, const PortraitOptions& options) {
     if (auto checked = check(images, ground); !checked) return tl::unexpected(checked.error());
     const ImageSet& set = images.set();
     uint32_t count = std::min(set.tile_count, options.most_tiles), level = level_of_side(set, options.width_px);

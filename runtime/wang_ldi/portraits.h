@@ -24,11 +24,11 @@ struct PortraitOptions {
 // Each tile straight from above among its neighbours, a line round it: everything that eyes of the cell see of it, of all
 // directions, as far up as there is anything (figures 11 and 12, above). Lit as the images are: without light or shadow where the
 // set has normals.
-Result<ImageRgb8> tiles_from_above(const ImageReader& images, const Ground& ground, const PortraitOptions& options);
+Result<ImageRgb8> tiles_from_above(const ImageReader& images, const PlantedTiles& ground, const PortraitOptions& options);
 
 // Each tile from the south-west, 30 degrees above the horizon, with its own objects alone: they are whole where they stand over
 // its edges, and nothing of its neighbours' is there (figures 11 and 12, below).
-Result<ImageRgb8> tiles_from_aside(const ImageReader& images, const Ground& ground, const PortraitOptions& options);
+Result<ImageRgb8> tiles_from_aside(const ImageReader& images, const PlantedTiles& ground, const PortraitOptions& options);
 
 // A tile's finest images for eyes in the south, west, north and east, a column each, from half-way through their distances (1.4
 // sides of the tile at least): above from where they are for, below from a quarter turn on, where the picture above in the next

@@ -13,7 +13,7 @@ using namespace container::fixtures;
 Result<void> read_bytes(std::span<const std::byte> bytes, const std::string& name) {
     Result<container::Reader> file = container::Reader::open_bytes(bytes, name);
     if (!file) return tl::unexpected(file.error());
-    Result<Ground> made = read(*file);
+    Result<PlantedTiles> made = read(*file);
     if (!made) return tl::unexpected(made.error());
     return {};
 }

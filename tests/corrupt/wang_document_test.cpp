@@ -26,7 +26,7 @@ TEST(GroundDocument, ShowsTheVeryBytesThatTheWriterWrites) {
 
     Result<container::Reader> file = container::Reader::open_bytes(documented, "wang_tiles.md");
     ASSERT_TRUE(file) << file.error().message;
-    Result<Ground> ground = read(*file);
+    Result<PlantedTiles> ground = read(*file);
     ASSERT_TRUE(ground) << ground.error().message;
     EXPECT_TRUE(ground->set == tulips().set);
     EXPECT_TRUE(ground->planting == tulips().planting);
@@ -45,7 +45,7 @@ TEST(GroundDocument, HasTheSentenceOfEveryRule) {
 
 TEST(GroundWriter, RefusesWhatNoReaderWouldTake) {
     ScratchFolder folder;
-    Ground ground = tulips();
+    PlantedTiles ground = tulips();
     ground.planting.tiles[1][1].x_m = 5;
     auto writer = container::Writer::create(folder / "tulips.ovl", kKind);
     ASSERT_TRUE(writer);
@@ -56,7 +56,7 @@ TEST(GroundWriter, RefusesWhatNoReaderWouldTake) {
 }
 
 TEST(Overhang, HasWhatNeighboursHoldOfEdgesAndCorners) {
-    Ground ground = tulips();
+    PlantedTiles ground = tulips();
     // Tile 1: to its west there is always an edge of colour 1, whose tulip stands 0.25 m beyond; to its east one of colour 0,
     // which has none. Each of its corners has a tulip in the north-east: three beyond its own.
     std::vector<Planted> around = overhang(ground.set, ground.planting, 1);

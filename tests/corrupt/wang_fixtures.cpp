@@ -26,13 +26,13 @@ Bytes with(const std::function<void(Pieces&)>& change) {
     return pieces.file();
 }
 // The same of a ground that is broken before it is laid out.
-Bytes of(const std::function<void(Ground&)>& change) {
-    Ground ground = tulips();
+Bytes of(const std::function<void(PlantedTiles&)>& change) {
+    PlantedTiles ground = tulips();
     change(ground);
     return Pieces::of(ground).file();
 }
 Bytes with_object(const std::function<void(Planted&)>& change) {
-    return of([&](Ground& ground) { change(ground.planting.tiles[1][1]); });
+    return of([&](PlantedTiles& ground) { change(ground.planting.tiles[1][1]); });
 }
 Bytes without(const char* tag) {
     return with([&](Pieces& pieces) { pieces.without = tag; });
@@ -67,14 +67,14 @@ std::vector<Fixture> broken_sets() {
             {"w02_no_corner.ovl", 2, with_count(4, 0)},
             {"w02_no_tile.ovl", 2, with_count(6, 0)},
             {"w02_most_tiles.ovl", 2, with_count(6, 65535)},
-            {"w03_nan.ovl", 3, of([](Ground& ground) { ground.set.corner_density[0] = kNanF; })},
-            {"w03_negative.ovl", 3, of([](Ground& ground) { ground.set.corner_density[0] = -0.5f; })},
-            {"w03_above_one.ovl", 3, of([](Ground& ground) { ground.set.corner_density[0] = 1.5f; })},
-            {"w04_horizontal.ovl", 4, of([](Ground& ground) { ground.set.horizontal[0].low = 1; })},
-            {"w04_vertical.ovl", 4, of([](Ground& ground) { ground.set.vertical[1].high = 255; })},
-            {"w05_north.ovl", 5, of([](Ground& ground) { ground.set.tiles[1].north = 1; })},
-            {"w05_east.ovl", 5, of([](Ground& ground) { ground.set.tiles[0].east = 2; })},
-            {"w05_corners.ovl", 5, of([](Ground& ground) {
+            {"w03_nan.ovl", 3, of([](PlantedTiles& ground) { ground.set.corner_density[0] = kNanF; })},
+            {"w03_negative.ovl", 3, of([](PlantedTiles& ground) { ground.set.corner_density[0] = -0.5f; })},
+            {"w03_above_one.ovl", 3, of([](PlantedTiles& ground) { ground.set.corner_density[0] = 1.5f; })},
+            {"w04_horizontal.ovl", 4, of([](PlantedTiles& ground) { ground.set.horizontal[0].low = 1; })},
+            {"w04_vertical.ovl", 4, of([](PlantedTiles& ground) { ground.set.vertical[1].high = 255; })},
+            {"w05_north.ovl", 5, of([](PlantedTiles& ground) { ground.set.tiles[1].north = 1; })},
+            {"w05_east.ovl", 5, of([](PlantedTiles& ground) { ground.set.tiles[0].east = 2; })},
+            {"w05_corners.ovl", 5, of([](PlantedTiles& ground) {
                  ground.set.corner_density.push_back(1);
                  ground.set.vertical[1].low = 1;
              })}};
@@ -86,16 +86,16 @@ std::vector<Fixture> broken_plantings() {
             {"w06_byte_more.ovl", 6, resized(&Pieces::planting, 1)},
             {"w06_most_models.ovl", 6, with_planting(8, 0xffffffff)},
             {"w06_most_tiles.ovl", 6, with_planting(12, 0xffffffff)},
-            {"w06_tile_less.ovl", 6, of([](Ground& ground) { ground.planting.tiles.pop_back(); })},
+            {"w06_tile_less.ovl", 6, of([](PlantedTiles& ground) { ground.planting.tiles.pop_back(); })},
             {"w06_long_name.ovl", 6, with_planting(16, 4097)},
             {"w06_unprintable.ovl", 6, with_planting(20, 7)},
             {"w06_most_objects.ovl", 6, with_planting(33, 0xffffffff)},
-            {"w07_nan_size.ovl", 7, of([](Ground& ground) { ground.planting.tile_size_m = kNan; })},
-            {"w07_no_size.ovl", 7, of([](Ground& ground) { ground.planting.tile_size_m = 0; })},
-            {"w07_no_radius.ovl", 7, of([](Ground& ground) { ground.planting.models[0].tight_radius_m = 0; })},
-            {"w07_tight_above_packing.ovl", 7, of([](Ground& ground) { ground.planting.models[0].tight_radius_m = 0.6f; })},
-            {"w07_packing_above_tile.ovl", 7, of([](Ground& ground) { ground.planting.models[0].packing_radius_m = 5; })},
-            {"w07_nan_radius.ovl", 7, of([](Ground& ground) { ground.planting.models[0].packing_radius_m = kNanF; })},
+            {"w07_nan_size.ovl", 7, of([](PlantedTiles& ground) { ground.planting.tile_size_m = kNan; })},
+            {"w07_no_size.ovl", 7, of([](PlantedTiles& ground) { ground.planting.tile_size_m = 0; })},
+            {"w07_no_radius.ovl", 7, of([](PlantedTiles& ground) { ground.planting.models[0].tight_radius_m = 0; })},
+            {"w07_tight_above_packing.ovl", 7, of([](PlantedTiles& ground) { ground.planting.models[0].tight_radius_m = 0.6f; })},
+            {"w07_packing_above_tile.ovl", 7, of([](PlantedTiles& ground) { ground.planting.models[0].packing_radius_m = 5; })},
+            {"w07_nan_radius.ovl", 7, of([](PlantedTiles& ground) { ground.planting.models[0].packing_radius_m = kNanF; })},
             {"w08_model.ovl", 8, with_object([](Planted& object) { object.model = 1; })},
             {"w08_west.ovl", 8, with_object([](Planted& object) { object.x_m = -0.25f; })},
             {"w08_north.ovl", 8, with_object([](Planted& object) { object.y_m = 4; })},
@@ -103,19 +103,19 @@ std::vector<Fixture> broken_plantings() {
             {"w08_turn.ovl", 8, with_object([](Planted& object) { object.turn_rad = 7; })},
             {"w08_no_scale.ovl", 8, with_object([](Planted& object) { object.scale = 0; })},
             {"w08_owner.ovl", 8, with_object([](Planted& object) { object.owner = Owner(4); })},
-            {"w09_corner_moved.ovl", 9, of([](Ground& ground) { ground.planting.tiles[1][0].x_m = 0.5f; })},
+            {"w09_corner_moved.ovl", 9, of([](PlantedTiles& ground) { ground.planting.tiles[1][0].x_m = 0.5f; })},
             {"w09_corner_missing.ovl", 9,
-             of([](Ground& ground) { ground.planting.tiles[0].erase(ground.planting.tiles[0].begin()); })},
-            {"w09_edge_missing.ovl", 9, of([](Ground& ground) { ground.planting.tiles[2].pop_back(); })},
-            {"w09_edge_turned.ovl", 9, of([](Ground& ground) { ground.planting.tiles[2].back().turn_rad = 1; })},
+             of([](PlantedTiles& ground) { ground.planting.tiles[0].erase(ground.planting.tiles[0].begin()); })},
+            {"w09_edge_missing.ovl", 9, of([](PlantedTiles& ground) { ground.planting.tiles[2].pop_back(); })},
+            {"w09_edge_turned.ovl", 9, of([](PlantedTiles& ground) { ground.planting.tiles[2].back().turn_rad = 1; })},
             {"w10_west.ovl", 10, with_object([](Planted& object) { object.x_m = 0.125f; })},
             {"w10_scaled.ovl", 10, with_object([](Planted& object) { object.scale = 9; })}};
 }
 
 }  // namespace
 
-Ground tulips() {
-    Ground ground;
+PlantedTiles tulips() {
+    PlantedTiles ground;
     ground.set.vertical = {{}, {}};
     ground.set.tiles = {{0, 1, 0, 0}, {0, 0, 0, 1}, {0, 1, 0, 1}};
     ground.planting.tile_size_m = 4;
@@ -126,7 +126,7 @@ Ground tulips() {
     return ground;
 }
 
-Pieces Pieces::of(const Ground& ground) {
+Pieces Pieces::of(const PlantedTiles& ground) {
     Pieces pieces;
     pieces.tiles = bytes_of_tiles(ground.set), pieces.planting = bytes_of_planting(ground.planting);
     return pieces;
@@ -143,7 +143,7 @@ Bytes Pieces::file() const {
 }
 
 std::vector<Fixture> whole_files() {
-    Ground bare = tulips();
+    PlantedTiles bare = tulips();
     for (auto& tile : bare.planting.tiles) tile.clear();
     bare.planting.models.clear(), bare.set.corner_density = {0};
     return {{"tulips.ovl", 0, Pieces::of(tulips()).file()}, {"bare.ovl", 0, Pieces::of(bare).file()}};

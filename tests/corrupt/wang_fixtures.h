@@ -14,14 +14,14 @@ using container::fixtures::Fixture;
 
 // Two tiles of 4 m with a tulip at every corner, one on the edges of one colour and one inside: the worked example of
 // formats/spec/wang_tiles.md.
-Ground tulips();
+PlantedTiles tulips();
 
 // A file in pieces that can be broken one by one, and put together with right checksums.
 struct Pieces {
     Bytes tiles, planting;
     std::string without;  // a section's tag that is left out; empty: none
 
-    static Pieces of(const Ground& ground);
+    static Pieces of(const PlantedTiles& ground);
     Bytes file() const;
 };
 

@@ -17,7 +17,7 @@ using fuzz::require;
 // There is no directory of blocks: nothing more to mend than the kind.
 constexpr fuzz::Blocks kBlocks{wang_ldi::kKind, 0, 0, 64, 0, 0, 0, nullptr};
 
-void use(const wang_ldi::Ground& ground) {
+void use(const wang_ldi::PlantedTiles& ground) {
     require(!wang_ldi::fault_of_set(ground.set) && !wang_ldi::fault_of_models(ground.planting) &&
             !wang_ldi::fault_of_objects(ground.set, ground.planting));
     wang_ldi::TileSet set;
@@ -34,7 +34,7 @@ void use(const wang_ldi::Ground& ground) {
 void read_all(std::span<const std::byte> bytes) {
     Result<Reader> file = Reader::open_bytes(bytes, "fuzz");
     if (!file) return;
-    Result<wang_ldi::Ground> read = wang_ldi::read(*file);
+    Result<wang_ldi::PlantedTiles> read = wang_ldi::read(*file);
     if (read) use(*read);
     if (!read) require(read.error().exit != Exit::our_bug);
 }

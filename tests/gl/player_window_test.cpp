@@ -115,9 +115,7 @@ TEST_F(Player, RefusesScenesThatItCannotDraw) {
               "/layers/0: " + folder_.string() +
                   "/hills.ovl is a terrain; of scenes of several layers the player draws chains of "
                   "levels alone\n"},
-             {R"({"asset":"hills.ovl","method":"wang-ldi"})", 5,
-              "scene.json: /layers/0/method: the player cannot draw wang-ldi yet; it draws terrain, lod-sprite, caveclod and "
-              "discrete\n"},
+             {R"({"asset":"hills.ovl","method":"wang-ldi"})", 3, "hills.ovl is a terrain\n"},
              {R"({"asset":"hills.ovl","method":"caveclod"})", 3, "hills.ovl is a terrain\n"},
              {R"({"asset":"hills.ovl","method":"lod-sprite:papr"})", 3,
               "scene.json: /layers/0/method: lod-sprite has no variant papr\n"},

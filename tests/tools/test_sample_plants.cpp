@@ -10,6 +10,7 @@
 #include "tests/formats/scratch_folder.h"
 #include "tools/bake/mesh_input.h"
 #include "tools/make_sample/plant_field.h"
+#include "tools/make_sample/plant_land.h"
 #include "tools/make_sample/plant_textures.h"
 #include "tools/make_sample/sample_plants.h"
 #include "tools/make_sample/sunflower.h"
@@ -193,6 +194,38 @@ TEST(SamplePlants, WriteASceneThatIsRead) {
     }
     EXPECT_EQ(instances, 50u);
     EXPECT_TRUE(scene::read_flight(folder / "flight.json"));
+}
+TEST(SamplePlants, WriteHillsToPlantThatAreGentle) {
+    ScratchFolder folder;
+    ASSERT_TRUE(make_plants("sunflowers", {3, 50}, folder.path()));
+    auto scene = scene::read_scene(folder / "planting.json");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->layers.size(), 2u);
+    ASSERT_TRUE(scene->layers[1].planting);
+    EXPECT_EQ(scene->layers[1].planting->seed, 3u);
+    ASSERT_EQ(scene->layers[1].planting->models.size(), 11u);
+    for (const std::string& model : scene->layers[1].planting->models) {
+        std::string glb = std::filesystem::path(model).stem().string() + ".glb";
+        EXPECT_TRUE(std::filesystem::exists(folder / glb)) << glb;
+    }
+    EXPECT_GT(std::filesystem::file_size(folder / "land.tif"), size_t(kLandSide) * kLandSide * sizeof(float));
+    EXPECT_GT(std::filesystem::file_size(folder / "land.png"), 10'000u);
+
+    double steepest = 0, low_m = 1e9, high_m = -1e9;
+    for (double south_m = 1; south_m < 799; south_m += 7)
+        for (double east_m = 1; east_m < 799; east_m += 7) {
+            double east = (land_height_m(3, east_m + 0.1, south_m) - land_height_m(3, east_m - 0.1, south_m)) / 0.2;
+            double south = (land_height_m(3, east_m, south_m + 0.1) - land_height_m(3, east_m, south_m - 0.1)) / 0.2;
+            steepest = std::max(steepest, std::hypot(east, south));
+            low_m = std::min(low_m, land_height_m(3, east_m, south_m)),
+            high_m = std::max(high_m, land_height_m(3, east_m, south_m));
+        }
+    EXPECT_LT(steepest, 0.25);
+    EXPECT_GT(high_m - low_m, 10);
+    auto walk = scene::read_flight(folder / "walk.json");
+    ASSERT_TRUE(walk) << walk.error().message;
+    for (const scene::Key& key : walk->keys)
+        EXPECT_NEAR(key.position_m[2] - land_height_m(3, key.position_m[0], -key.position_m[1]), 1.75, 1e-6);
 }
 TEST(SamplePlants, NameEveryModelAndItsRadiiInTheRecipe) {
     for (const char* name : {"sunflowers", "grass"}) {

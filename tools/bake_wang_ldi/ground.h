@@ -25,7 +25,7 @@ struct GroundArgs {
 
 struct GroundDone {
     wang_ldi::Recipe recipe;
-    wang_ldi::Ground ground;
+    wang_ldi::PlantedTiles ground;
     wang_ldi::SearchReport search;
     wang_ldi::PlantReport plant;
     wang_ldi::Figures figures;

@@ -109,7 +109,7 @@ void print_mesh(const ordered_json& m) {
 }
 
 void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain,
-                const std::optional<wang_ldi::Ground>& ground, const std::optional<wang_ldi::ImageReader>& images) {
+                const std::optional<wang_ldi::PlantedTiles>& ground, const std::optional<wang_ldi::ImageReader>& images) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
@@ -186,7 +186,7 @@ int info(const InfoArgs& args, const command::Common& common) {
         json["chain"] = ordered_json::parse(chain_json(*read));
         if (!common.json) chain = std::move(*read);
     }
-    std::optional<wang_ldi::Ground> ground;
+    std::optional<wang_ldi::PlantedTiles> ground;
     std::optional<wang_ldi::ImageReader> images;
     if (file->kind() == wang_ldi::kKind) {
         auto read = wang_ldi::read(*file);

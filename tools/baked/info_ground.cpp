@@ -28,7 +28,7 @@ Counts counts_of(const wang_ldi::Planting& planting) {
 
 }  // namespace
 
-std::string ground_json(const wang_ldi::Ground& ground) {
+std::string ground_json(const wang_ldi::PlantedTiles& ground) {
     const wang_ldi::Planting& planting = ground.planting;
     Counts counts = counts_of(planting);
     wang_ldi::OverlapReport overlaps = wang_ldi::check_overlaps(ground.set, planting);
@@ -57,7 +57,7 @@ std::string ground_json(const wang_ldi::Ground& ground) {
     return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-void print_ground(const wang_ldi::Ground& ground) {
+void print_ground(const wang_ldi::PlantedTiles& ground) {
     Counts counts = counts_of(ground.planting);
     wang_ldi::OverlapReport overlaps = wang_ldi::check_overlaps(ground.set, ground.planting);
     double tiles = double(ground.set.tiles.size());
@@ -71,7 +71,7 @@ void print_ground(const wang_ldi::Ground& ground) {
     fmt::print("promise: {} tight radii overlap in any of {} neighbourhoods\n", overlaps.tight_overlaps, overlaps.neighbourhoods);
 }
 
-Result<void> write_sheet(const std::string& file, const wang_ldi::Ground& ground, const wang_ldi::ImageReader* images,
+Result<void> write_sheet(const std::string& file, const wang_ldi::PlantedTiles& ground, const wang_ldi::ImageReader* images,
                          const std::string& folder) {
     auto made = wang_ldi::sheet_of(ground, 1);
     if (!made) return tl::unexpected(made.error());

@@ -8,10 +8,10 @@
 
 namespace overlook::baked {
 
-std::string ground_json(const wang_ldi::Ground& ground);
-void print_ground(const wang_ldi::Ground& ground);
+std::string ground_json(const wang_ldi::PlantedTiles& ground);
+void print_ground(const wang_ldi::PlantedTiles& ground);
 // Pictures of it, and of its images if there are any, into a folder, which is made where there is none. file: for messages.
-Result<void> write_sheet(const std::string& file, const wang_ldi::Ground& ground, const wang_ldi::ImageReader* images,
+Result<void> write_sheet(const std::string& file, const wang_ldi::PlantedTiles& ground, const wang_ldi::ImageReader* images,
                          const std::string& folder);
 
 }  // namespace overlook::baked

@@ -86,7 +86,7 @@ void print_images(const wang_ldi::ImageReader& images) {
 }
 
 Result<std::vector<NamedPicture>> image_sheet(const std::string& file, const wang_ldi::ImageReader& images,
-                                              const wang_ldi::Ground& ground) {
+                                              const wang_ldi::PlantedTiles& ground) {
     wang_ldi::PortraitOptions options, large;
     large.width_px = 320;
     std::vector<NamedPicture> sheet;

@@ -19,6 +19,6 @@ struct NamedPicture {
 };
 // tiles-above.png, tiles-aside.png, directions.png, levels.png: runtime/wang_ldi/portraits.h. Fails as those, the file named.
 Result<std::vector<NamedPicture>> image_sheet(const std::string& file, const wang_ldi::ImageReader& images,
-                                              const wang_ldi::Ground& ground);
+                                              const wang_ldi::PlantedTiles& ground);
 
 }  // namespace overlook::baked

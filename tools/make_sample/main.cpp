@@ -137,8 +137,10 @@ int main(int argc, char** argv) {
          {std::pair("sunflowers", "11 sunflowers of 35,000 triangles: sunflower-00.glb to sunflower-10.glb"),
           std::pair("grass",
                     "A meadow: grass-00.glb to grass-14.glb, dandelion-00.glb to -08.glb, buttercup-00.glb to -14.glb")}) {
-        plants.push_back(app.add_subcommand(name, std::string("Plants of the paper on tiled layered depth images. ") + what +
-                                                      ", recipe.toml, hills.glb, scene.json, flight.json, README.md"));
+        plants.push_back(app.add_subcommand(
+            name, std::string("Plants of the paper on tiled layered depth images. ") + what +
+                      ", recipe.toml, hills.glb, scene.json, flight.json, land.tif, land.png, planting.json, walk.json, "
+                      "README.md"));
         plants.back()->add_option("-o,--output", folder, "Folder to write into")->required();
         plants.back()
             ->add_option("--count", plant_options.count, "How many stand in the scene")

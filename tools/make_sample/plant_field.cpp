@@ -60,7 +60,13 @@ std::vector<PlantedPlace> drawn_lots(const PlantSet& set, uint32_t count, Dice& 
     return places;
 }
 
-// Earth with weeds, a share of 0..1 of it, whose edges meet.
+std::string layer_text(const std::string& asset, const std::string& instances) {
+    return fmt::format("    {{\n      \"asset\": \"{}.ovl\",\n      \"method\": \"discrete\"{}\n    }}", asset,
+                       instances.empty() ? "" : ",\n      \"instances\": [\n" + instances + "\n      ]");
+}
+
+}  // namespace
+
 glm::dvec4 soil_at(uint64_t seed, double weeds, double u, double v) {
     double rough = 0, fine = tiled_noise(seed, 64 * u, 64 * v, 64);
     for (uint32_t period = 4, octave = 0; octave < 4; period *= 2, ++octave)
@@ -68,13 +74,6 @@ glm::dvec4 soil_at(uint64_t seed, double weeds, double u, double v) {
     glm::dvec3 earth(0.36, 0.29, 0.20), green(0.29, 0.36, 0.17);
     return {glm::mix(earth, green, smooth_step(0.4 - 1.2 * weeds, 1.0 - 1.2 * weeds, rough)) * (1 + 0.3 * fine), 1};
 }
-
-std::string layer_text(const std::string& asset, const std::string& instances) {
-    return fmt::format("    {{\n      \"asset\": \"{}.ovl\",\n      \"method\": \"discrete\"{}\n    }}", asset,
-                       instances.empty() ? "" : ",\n      \"instances\": [\n" + instances + "\n      ]");
-}
-
-}  // namespace
 
 double hill_m(const PlantField& field, double x_m, double y_m) {
     double x = x_m / field.side_m, y = y_m / field.side_m;

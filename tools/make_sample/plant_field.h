@@ -27,6 +27,9 @@ double hill_m(const PlantField& field, double x_m, double y_m);
 // count plants by their shares on a square about the origin, no two packing radii overlapping. O(count) throws.
 PlantField plant_field(const PlantSet& set, uint32_t count, uint64_t seed);
 
+// Earth with weeds, a share of 0..1 of it, whose edges meet; u, v: 0..1.
+glm::dvec4 soil_at(uint64_t seed, double weeds, double u, double v);
+
 // The ground, somewhat larger than the field; weeds: how much of it is green, 0..1. Fails as png_bytes does.
 Result<GlbNode> hills_of(const PlantField& field, double weeds, uint64_t seed);
 // hills.ovl and NAME.ovl of each model that stands somewhere, by the method discrete.

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <span>
 
 #include "tools/make_sample/glb.h"
 #include "tools/make_sample/meadow.h"
 #include "tools/make_sample/noise.h"
 #include "tools/make_sample/plant_field.h"
+#include "tools/make_sample/plant_land.h"
 #include "tools/make_sample/sample_folder.h"
 #include "tools/make_sample/sunflower.h"
 
@@ -63,11 +65,19 @@ Result<PlantSet> meadow(uint64_t seed) {
     return set;
 }
 
+std::string text_of(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 std::string readme_of(const std::string& name, const PlantSet& set, uint32_t count) {
     std::string text = fmt::format(
         "# {}\n\nPlants to be planted on tiles, as recipe.toml says; about {:g} on each. Metres; the foot at the origin.\n\n"
         "{} of them on hills, drawn as chains of levels:\n\n    for model in *.glb; do bake-lod discrete $model -o "
         "${{model%.glb}}.ovl; done\n    player scene.json --flight flight.json\n\n"
+        "All over the hills, as tiles of layered depth images (planting.json's models are those chains):\n\n    bake-lod terrain "
+        "land.tif --texture land.png -o land.ovl\n    bake-wang-ldi recipe.toml -o planting.ovl\n    player planting.json "
+        "--flight "
+        "walk.json\n\n"
         "| model | triangles | high, m | from its foot, m |\n|---|---|---|---|\n",
         name, set.per_tile, count);
     for (const Plant& plant : set.plants) {
@@ -119,8 +129,11 @@ Result<std::vector<std::string>> make_plants(const std::string& name, const Plan
     Result<PlantSet> set = plant_set(name, options.seed);
     if (!set) return tl::unexpected(set.error());
     PlantField field = plant_field(*set, options.count, options.seed);
-    Result<GlbNode> hills = hills_of(field, name == "sunflowers" ? 0.5 : 0.95, options.seed);
+    double weeds = name == "sunflowers" ? 0.5 : 0.95, eye_m = name == "sunflowers" ? 1.75 : 0.8;
+    Result<GlbNode> hills = hills_of(field, weeds, options.seed);
     if (!hills) return tl::unexpected(hills.error());
+    Result<std::vector<std::byte>> land = land_png(weeds, options.seed);
+    if (!land) return tl::unexpected(land.error());
     Result<SampleFolder> made = SampleFolder::make(folder);
     if (!made) return tl::unexpected(made.error());
 
@@ -131,7 +144,11 @@ Result<std::vector<std::string>> make_plants(const std::string& name, const Plan
     files.emplace_back("recipe.toml", plant_recipe(*set, options.seed));
     files.emplace_back("hills.glb", glb_text({*hills}, 0));
     files.emplace_back("scene.json", scene_of_field(*set, field));
-    files.emplace_back("flight.json", scene::json_from_flight(flight_of_field(field, name == "sunflowers" ? 1.75 : 0.8)));
+    files.emplace_back("flight.json", scene::json_from_flight(flight_of_field(field, eye_m)));
+    files.emplace_back("land.tif", text_of(land_tiff(options.seed)));
+    files.emplace_back("land.png", text_of(*land));
+    files.emplace_back("planting.json", scene::json_from_scene(land_scene(*set, options.seed)));
+    files.emplace_back("walk.json", scene::json_from_flight(land_walk(eye_m, options.seed)));
     files.emplace_back("README.md", readme_of(name, *set, options.count));
     if (Result<void> written = made->write(files); !written) return tl::unexpected(written.error());
     return made->files();

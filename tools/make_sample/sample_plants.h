@@ -48,7 +48,8 @@ struct PlantOptions {
 };
 
 // Writes into a folder, which it makes where there is none, and returns the paths: the models (GLB), recipe.toml, README.md with
-// the commands, and for drawing them as geometry hills.glb, scene.json (of the chains of levels baked beside it) and flight.json.
+// the commands, for drawing them as geometry hills.glb, scene.json (of the chains of levels baked beside it) and flight.json, and
+// for drawing them as tiles land.tif, land.png, planting.json and walk.json (plant_land.h).
 // Fails with Exit::cannot_write.
 Result<std::vector<std::string>> make_plants(const std::string& name, const PlantOptions& options, const std::string& folder);
 

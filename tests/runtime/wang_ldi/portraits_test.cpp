@@ -18,8 +18,8 @@ constexpr double kPixel_m = kTile_m / kSide;
 constexpr float kTight_m = 0.4f;
 
 // One tile that repeats: an object inside, one on each edge and one at the corner, three of which reach over the rim.
-Ground patch() {
-    Ground ground;
+PlantedTiles patch() {
+    PlantedTiles ground;
     ground.set.tiles = {{}};
     ground.planting.tile_size_m = kTile_m;
     ground.planting.models = {{"post", kTight_m, 0.5f}};
@@ -63,7 +63,7 @@ Ldi ldi_of(uint32_t side, const std::function<int(double x, double y)>& colour_a
 
 // Posts a metre high: of the tile's own objects in colours 0 to 3, of those that reach in in colours from 8 on.
 int post_at(double x, double y) {
-    Ground ground = patch();
+    PlantedTiles ground = patch();
     std::vector<Planted> all = ground.planting.tiles[0], more = overhang(ground.set, ground.planting, 0);
     all.insert(all.end(), more.begin(), more.end());
     for (size_t i = 0; i < all.size(); ++i)
@@ -122,7 +122,7 @@ int count_of(const ImageRgb8& picture, uint8_t number) {
 }
 
 TEST(ObjectMap, PartsATilesSamplesAmongTheTilesWhoseObjectsTheyAreOf) {
-    Ground ground = patch();
+    PlantedTiles ground = patch();
     Ldi ldi = ldi_of(kSide, post_at, post_heights());
     ObjectMap map(ground, 0, kSide);
     Ldi own = map.only_of_square(ldi, {0, 0});
@@ -146,7 +146,7 @@ TEST(ObjectMap, PartsATilesSamplesAmongTheTilesWhoseObjectsTheyAreOf) {
 
 TEST_F(PortraitTest, FromAboveEachObjectStandsWhereItIsAmongItsNeighbours) {
     write(set_of(2), [](const Which& which) { return ldi_of(which.level == 0 ? kSide : kSide / 8, post_at, post_heights()); });
-    Ground ground = patch();
+    PlantedTiles ground = patch();
     auto picture = tiles_from_above(*images_, ground, {});
     ASSERT_TRUE(picture) << picture.error().message;
     ASSERT_EQ(picture->width, 220u + 16);
@@ -167,7 +167,7 @@ TEST_F(PortraitTest, FromAboveEachObjectStandsWhereItIsAmongItsNeighbours) {
 
 TEST_F(PortraitTest, FromAsideOwnObjectsAreWholeAndAlone) {
     write(set_of(2), [](const Which& which) { return ldi_of(which.level == 0 ? kSide : kSide / 8, post_at, post_heights()); });
-    Ground ground = patch();
+    PlantedTiles ground = patch();
     auto picture = tiles_from_aside(*images_, ground, {});
     ASSERT_TRUE(picture) << picture.error().message;
     for (uint8_t own = 0; own < 4; ++own) EXPECT_GT(count_of(*picture, own), 50) << int(own);
@@ -222,7 +222,7 @@ TEST_F(PortraitTest, LevelsAreSeenFarCloseUpAndAsTheyShouldBe) {
 
 TEST_F(PortraitTest, OfImagesThatAreOfOtherGroundThereIsNone) {
     write(set_of(1), [](const Which& which) { return ldi_of(which.level == 0 ? kSide : kSide / 8, post_at, post_heights()); });
-    Ground other = patch();
+    PlantedTiles other = patch();
     other.planting.tile_size_m = 3;
     for (auto picture : {tiles_from_above(*images_, other, {}), tiles_from_aside(*images_, other, {})}) {
         ASSERT_FALSE(picture);

@@ -77,7 +77,7 @@ ImageRgb8 spectrum_picture(const Tiling& tiling, size_t tile_count) {
 // Draws objects of a tile whose south-west corner is at (x, y).
 class PlotPainter {
   public:
-    PlotPainter(Canvas& canvas, const Ground& ground, double pixels_per_m)
+    PlotPainter(Canvas& canvas, const PlantedTiles& ground, double pixels_per_m)
         : canvas_(canvas), ground_(ground), scale_(pixels_per_m) {}
 
     void plant(size_t tile, const std::vector<Planted>& objects, double x, double y) {
@@ -110,11 +110,11 @@ class PlotPainter {
     }
 
     Canvas& canvas_;
-    const Ground& ground_;
+    const PlantedTiles& ground_;
     double scale_;
 };
 
-ImageRgb8 plots_picture(const Ground& ground) {
+ImageRgb8 plots_picture(const PlantedTiles& ground) {
     constexpr double kSide = 170, kMargin = 34;
     size_t count = ground.set.tiles.size();
     uint32_t columns = columns_for(count), rows = (uint32_t(count) + columns - 1) / columns;
@@ -133,7 +133,7 @@ ImageRgb8 plots_picture(const Ground& ground) {
 }
 
 // Rows of pairs: each tile with one east colour, beside each that has it to the west; at most 6 x 6.
-ImageRgb8 neighbours_picture(const Ground& ground) {
+ImageRgb8 neighbours_picture(const PlantedTiles& ground) {
     constexpr double kSide = 120, kGap = 14;
     std::vector<size_t> left, right;
     uint8_t colour = ground.set.tiles[0].east;
@@ -159,7 +159,7 @@ ImageRgb8 neighbours_picture(const Ground& ground) {
     return canvas.picture();
 }
 
-ImageRgb8 planting_picture(const Ground& ground, const Tiling& tiling) {
+ImageRgb8 planting_picture(const PlantedTiles& ground, const Tiling& tiling) {
     constexpr uint32_t kTiles = 6;
     constexpr double kSide = 128;
     Canvas canvas(uint32_t(kTiles * kSide), uint32_t(kTiles * kSide), kGround);
@@ -194,7 +194,7 @@ Result<Tiling> sheet_tiling(const TileSet& set, uint64_t seed) {
 
 }  // namespace
 
-Result<std::vector<SheetPicture>> sheet_of(const Ground& ground, uint64_t seed) {
+Result<std::vector<SheetPicture>> sheet_of(const PlantedTiles& ground, uint64_t seed) {
     auto tiling = sheet_tiling(ground.set, seed);
     if (!tiling) return tl::unexpected(tiling.error());
     TileSet robinson = robinson_set();

@@ -23,6 +23,6 @@ struct SheetPicture {
 // the middle. planting-neighbours.png: what may stand to the east of tiles with one east colour, which own it (figure 5).
 // planting-tiles.png: each tile with what stands over its edges (figure 6). planting.png: 6 x 6 of them. Discs: packing radius
 // light, tight radius dark; of corners black, of edges in the edge's colour, of interiors green. seed: of the tilings.
-Result<std::vector<SheetPicture>> sheet_of(const Ground& ground, uint64_t seed);
+Result<std::vector<SheetPicture>> sheet_of(const PlantedTiles& ground, uint64_t seed);
 
 }  // namespace overlook::wang_ldi

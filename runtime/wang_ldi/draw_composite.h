@@ -1,0 +1,38 @@
+// A warped picture laid over what OpenGL drew, pixel by pixel, by depth: terrain hides plants, and plants hide terrain.
+//
+// Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 5.3. Ours: depths are compared
+// where they are drawn, without a stencil, and nothing is read back.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "runtime/gl/objects.h"
+#include "runtime/gl/program.h"
+#include "runtime/gl/target.h"
+#include "runtime/view/camera.h"
+#include "runtime/wang_ldi/warp.h"
+
+namespace overlook::wang_ldi {
+
+// A context must be current.
+class Composite {
+  public:
+    // Fails with Exit::our_bug.
+    static Result<Composite> make();
+
+    // Sends a picture to the card; what is drawn from now on. Returns how many bytes.
+    uint64_t take(const Warped& picture);
+    // Draws it into the target, which has its size and holds what was drawn for the camera (whose near plane depths are by), and
+    // resolves. haze_per_m: of the air before it, as terrain::Drawing's; 0: none.
+    void draw(const gl::Target& target, const view::Camera& camera, double haze_per_m) const;
+
+  private:
+    Composite() = default;
+    gl::Program program_;
+    gl::VertexArray nothing_;
+    gl::Texture colours_, depths_;
+    uint32_t width_px_ = 0, height_px_ = 0;
+};
+
+}  // namespace overlook::wang_ldi

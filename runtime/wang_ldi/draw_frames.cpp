@@ -1,0 +1,162 @@
+#include "runtime/wang_ldi/draw_frames.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "formats/parallel.h"
+#include "runtime/terrain/near_plane.h"
+#include "runtime/wang_ldi/plain.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr double kAhead_s = 0.5;  // images are asked for where the eye will be then
+
+class Clock {
+  public:
+    double elapsed_ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+view::Camera moved(view::Camera camera, const glm::dvec3& by_m) {
+    camera.position_m += by_m;
+    return camera;
+}
+
+}  // namespace
+
+FrameDrawer::FrameDrawer(const PlantedField& planted, const Land& land, const FrameOptions& options,
+                         const ImageStreaming& streaming)
+    : planted_(planted), land_(land), options_(options), streaming_(streaming) {}
+
+FrameDrawer::~FrameDrawer() {
+    wait();
+}
+
+Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const PlantedField& planted, const Land& land, const FrameOptions& options,
+                                                       const ImageStreaming& streaming) {
+    std::unique_ptr<FrameDrawer> made(new FrameDrawer(planted, land, options, streaming));
+    Result<std::unique_ptr<ImageStore>> store = ImageStore::open(planted.name(), planted.images(), streaming.settings);
+    if (!store) return tl::unexpected(store.error());
+    made->store_ = std::move(*store);
+    Result<Composite> composite = Composite::make();
+    if (!composite) return tl::unexpected(composite.error());
+    made->composite_.emplace(std::move(*composite));
+
+    const ImageSet& set = planted.images().set();
+    const ImageStore& images = *made->store_;
+    made->far_ = FarColours::of(set, [&](uint64_t index) { return images.at(index); });
+    Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, 1));
+    if (!field) return tl::unexpected(field.error());
+    return made;
+}
+
+void FrameDrawer::change(const FrameOptions& options) {
+    wait();
+    options_ = options;
+}
+
+void FrameDrawer::wait() {
+    if (warping_.valid()) warping_.get();
+}
+
+Result<void> FrameDrawer::decide(const view::Camera& camera, double dt_s, double morph) {
+    wait();
+    size_t ready = shown_, next = 1 - shown_;
+    if (has_next_) ready = 1 - shown_, next = shown_;
+    const Warped& done = slots_[ready].picture;
+    bool is_late = options_.is_pipelined && done.width_px == camera.width_px && done.height_px == camera.height_px;
+    if (Result<void> prepared = prepare(camera, dt_s, morph, slots_[next]); !prepared) return prepared;
+    before_ = camera;
+    if (!is_late) {
+        warp(slots_[next]);
+        shown_ = next, has_next_ = false;
+        slots_[shown_].counts.latency_frames = 0;
+        return {};
+    }
+    warping_ = std::async(std::launch::async, [this, next] { warp(slots_[next]); });
+    shown_ = ready, has_next_ = true;
+    slots_[shown_].counts.latency_frames = 1;
+    return {};
+}
+
+Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, double morph, Slot& slot) {
+    slot.counts = {};
+    slot.origin_m = land_.is_plain ? plain_origin_m(camera.position_m) : glm::dvec3(0);
+    view::Camera local = terrain::with_clear_near_plane(*land_.terrain, moved(camera, -slot.origin_m));
+    slot.camera = camera;
+    slot.camera.near_m = local.near_m;
+    Result<Field> field =
+        Field::of(planted_.parts(), field_options_of(planted_.images().set(), options_, view::focal_px(slot.camera)));
+    if (!field) return tl::unexpected(field.error());
+    slot.field.emplace(std::move(*field));
+
+    Clock clock;
+    land_.refiner->cut_by_pixels(local, options_.error_px, slot.cut, morph);
+    if (Result<void> listed = list(slot, dt_s); !listed) return listed;
+    FrameCounts& counts = slot.counts;
+    counts.list_ms = clock.elapsed_ms();
+    counts.triangle_count = slot.cut.triangle_count(), counts.void_rim_triangle_count = slot.cut.void_rim_triangle_count;
+    counts.terrain_tested_count = slot.cut.tested_count;
+    counts.predicted_error_px = slot.cut.predicted_error_px;
+    counts.threads = thread_count();
+    return {};
+}
+
+// And has its images at hand, or others in their place.
+Result<void> FrameDrawer::list(Slot& slot, double dt_s) {
+    uint64_t streamed_bytes = 0;
+    faults_.clear();
+    do {
+        const std::vector<Error>& faults = store_->begin_frame();
+        faults_.insert(faults_.end(), faults.begin(), faults.end());
+        if (streaming_.waits && !faults_.empty()) return tl::unexpected(faults_.front());
+        slot.field->list(slot.camera, slot.list);
+        slot.counts.field = slot.list.counts;
+        slot.counts.images = store_->take(*slot.field, slot.list);
+        if (!streaming_.waits) look_ahead(slot, dt_s);
+        store_->end_frame();
+        streamed_bytes += store_->counts().uploaded_bytes;
+    } while (streaming_.waits && !store_->is_settled());
+    slot.counts.stream = store_->counts();
+    slot.counts.stream.uploaded_bytes = streamed_bytes;
+    if (options_.shows_rings) {
+        auto image_at = [&](uint64_t index) { return store_->at(index); };
+        rings_.take(*slot.field, slot.list, image_at);
+    }
+    return {};
+}
+
+void FrameDrawer::look_ahead(Slot& slot, double dt_s) {
+    if (!before_ || !(dt_s > 0)) return;
+    glm::dvec3 way_m = (slot.camera.position_m - before_->position_m) * (kAhead_s / dt_s);
+    double turn_deg = std::remainder(slot.camera.heading_deg - before_->heading_deg, 360.0) * (kAhead_s / dt_s);
+    if (way_m == glm::dvec3(0) && turn_deg == 0) return;
+    view::Camera camera = moved(slot.camera, way_m);
+    camera.heading_deg += std::clamp(turn_deg, -90.0, 90.0);
+    slot.field->list(camera, ahead_);
+    store_->look_ahead(*slot.field, ahead_);
+}
+
+void FrameDrawer::warp(Slot& slot) {
+    Clock clock;
+    slot.picture.clear(slot.camera.width_px, slot.camera.height_px);
+    Hiding hiding = options_.variant == Variant::paper ? Hiding::by_order : Hiding::by_depth;
+    ImageAt image_at = [this](uint64_t index) { return options_.shows_rings ? rings_.at(index) : store_->at(index); };
+    slot.counts.warp = warp_field(slot.camera, *slot.field, slot.list, image_at, hiding, slot.picture, &far_);
+    slot.counts.warp_ms = clock.elapsed_ms();
+}
+
+void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& look) {
+    Slot& slot = slots_[shown_];
+    view::Camera local = moved(slot.camera, -slot.origin_m);
+    land_.drawing->draw(target, slot.cut, local, look);
+    slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + composite_->take(slot.picture);
+    composite_->draw(target, slot.camera, land_.drawing->haze_per_m(look));
+}
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,111 @@
+// Planted ground from frame to frame: the terrain by OpenGL, what is planted warped by the processor, both in one picture.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "runtime/stream/stream.h"
+#include "runtime/terrain/draw.h"
+#include "runtime/terrain/refine.h"
+#include "runtime/wang_ldi/draw_composite.h"
+#include "runtime/wang_ldi/image_store.h"
+#include "runtime/wang_ldi/planted_field.h"
+#include "runtime/wang_ldi/rings.h"
+#include "runtime/wang_ldi/settings.h"
+#include "runtime/wang_ldi/warp_field.h"
+
+namespace overlook::wang_ldi {
+
+// What is planted on. All must outlive what draws it.
+struct Land {
+    const terrain::Terrain* terrain = nullptr;
+    const terrain::Refiner* refiner = nullptr;  // of terrain
+    terrain::Drawing* drawing = nullptr;        // of terrain
+    bool is_plain = false;                      // plain_terrain(), which goes where the eye goes
+};
+
+// How images are read.
+struct ImageStreaming {
+    stream::Settings settings;
+    // Every picture waits for what memory has room for, and an image that cannot be read ends the drawing with its error; needs
+    // latency_frames.
+    bool waits = false;
+};
+
+// What one frame was and took. Exact, and the same on every run, but for the times.
+struct FrameCounts {
+    uint64_t triangle_count = 0;  // of the terrain
+    uint64_t void_rim_triangle_count = 0;
+    uint64_t terrain_tested_count = 0;
+    uint64_t uploaded_bytes = 0;
+    FieldCounts field;
+    WarpCounts warp;
+    ImageStore::Taken images;
+    stream::Counts stream;
+    uint32_t latency_frames = 0;  // so many frames ago the picture's camera was given
+    uint32_t threads = 1;
+    double list_ms = 0, warp_ms = 0;  // warp_ms: beside other work, of one that is pipelined
+    double predicted_error_px = 0;    // of the terrain, and of tiles off it
+};
+
+// Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
+// picture. A context must be current.
+class FrameDrawer {
+  public:
+    // Fails as ImageStore::open, Composite::make and Field::of.
+    static Result<std::unique_ptr<FrameDrawer>> make(const PlantedField& planted, const Land& land, const FrameOptions& options,
+                                                     const ImageStreaming& streaming);
+    FrameDrawer(const FrameDrawer&) = delete;
+    FrameDrawer& operator=(const FrameDrawer&) = delete;
+    ~FrameDrawer();
+
+    // From the next frame on. Images stay.
+    void change(const FrameOptions& options);
+    const FrameOptions& options() const { return options_; }
+
+    // morph: as Refiner::cut_by_pixels. Fails if it waits for an image that cannot be read.
+    Result<void> decide(const view::Camera& camera, double dt_s, double morph);
+    // Draws what was decided, or one frame earlier if it is pipelined, and resolves; need not wait until it is drawn.
+    void draw(const gl::Target& target, const terrain::DrawOptions& look);
+    const FrameCounts& counts() const { return slots_[shown_].counts; }  // of the frame that is drawn
+    const std::vector<Error>& faults() const { return faults_; }         // images of this frame that cannot be read
+    uint64_t budget_bytes() const { return store_->settings().residency_budget_bytes; }
+
+  private:
+    struct Slot {
+        view::Camera camera;     // whose near plane cuts nothing off
+        glm::dvec3 origin_m{0};  // of the terrain, in the camera's world
+        std::optional<Field> field;
+        FieldList list;
+        terrain::Cut cut;
+        Warped picture;
+        FrameCounts counts;
+    };
+    FrameDrawer(const PlantedField& planted, const Land& land, const FrameOptions& options, const ImageStreaming& streaming);
+    Result<void> prepare(const view::Camera& camera, double dt_s, double morph, Slot& slot);
+    Result<void> list(Slot& slot, double dt_s);
+    void look_ahead(Slot& slot, double dt_s);
+    void warp(Slot& slot);
+    void wait();
+
+    const PlantedField& planted_;
+    Land land_;
+    FrameOptions options_;
+    ImageStreaming streaming_;
+    std::unique_ptr<ImageStore> store_;
+    std::optional<Composite> composite_;
+    FarColours far_;
+    RingImages rings_;
+    FieldList ahead_;
+    std::optional<view::Camera> before_;  // the camera of the frame before
+    std::vector<Error> faults_;
+    Slot slots_[2];
+    size_t shown_ = 0;
+    bool has_next_ = false;      // the other slot is warped, or being warped, for a picture that is not shown yet
+    std::future<void> warping_;  // last: it uses the others
+};
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,58 @@
+// Baked tiles as they stand on a ground: a file's images with all that a field of them refers to.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "formats/wang_ground.h"
+#include "formats/wang_ldi.h"
+#include "runtime/wang_ldi/field.h"
+#include "runtime/wang_ldi/ground.h"
+#include "runtime/wang_ldi/placement.h"
+#include "runtime/wang_ldi/tiling.h"
+
+namespace overlook::wang_ldi {
+
+struct PlantedOptions {
+    PlacementOptions placement;
+    uint64_t seed = 1;  // of the tiling
+};
+
+// Stays where it is, since its parts know each other.
+class PlantedField {
+  public:
+    // Reads the set of tiles, the planting and the images' directory; none of the images. on: what the tiles stand on, whose
+    // terrain must outlive this. The file may be hostile. Fails as wang_ldi::read, ImageReader::open, Placement::of and
+    // RandomTiling::of, and with Exit::bad_input:
+    //   "meadow.ovl: holds a planting without images; bake it without --only planting to draw it"
+    //   "meadow.ovl: has images of 3 tiles of 2 m for a planting of 12 tiles of 3 m"
+    static Result<std::unique_ptr<PlantedField>> open(container::Reader file, Ground on, const PlantedOptions& options);
+    PlantedField(const PlantedField&) = delete;
+    PlantedField& operator=(const PlantedField&) = delete;
+
+    const std::string& name() const { return file_.name(); }
+    const ImageReader& images() const { return *images_; }
+    const TileSet& set() const { return set_; }
+    const Planting& planting() const { return planting_; }
+    const RandomTiling& tiling() const { return *tiling_; }
+    const Placement& placement() const { return *placement_; }
+    const Ground& ground() const { return ground_; }
+    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, &*tiling_, &*placement_}; }
+
+  private:
+    PlantedField(container::Reader file, Ground on) : file_(std::move(file)), ground_(std::move(on)) {}
+    Result<void> make_parts(const PlantedOptions& options);
+
+    container::Reader file_;
+    Ground ground_;
+    TileSet set_;
+    Planting planting_;
+    std::optional<ImageReader> images_;
+    std::vector<uint32_t> sample_counts_;
+    std::optional<Placement> placement_;
+    std::optional<RandomTiling> tiling_;
+};
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,63 @@
+#include "runtime/wang_ldi/settings.h"
+
+#include <array>
+#include <cassert>
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr FrameOptions kDefaults;
+constexpr SettingKind kErrorPx{"error-px", 0.001, 10000, kDefaults.error_px};
+constexpr SettingKind kRadiusM{"radius-m", 0, 1e7, kDefaults.radius_m, false, true};
+constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
+constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
+constexpr std::array<SettingKind, 6> kOwn = {kErrorPx,
+                                             kRadiusM,
+                                             SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
+                                             SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
+                                             kPipelined,
+                                             kRings};
+constexpr std::array<SettingKind, 4> kPaper = {kErrorPx, kRadiusM, kPipelined, kRings};
+
+}  // namespace
+
+FrameOptions defaults_of(Variant variant) {
+    FrameOptions options;
+    options.variant = variant;
+    return options;
+}
+
+std::span<const SettingKind> setting_kinds(Variant variant) {
+    if (variant == Variant::paper) return kPaper;
+    return kOwn;
+}
+
+void set(FrameOptions& options, std::string_view name, double value) {
+    if (name == "error-px") {
+        options.error_px = value;
+    } else if (name == "radius-m") {
+        options.radius_m = value;
+    } else if (name == "fade") {
+        options.fade = value;
+    } else if (name == "direction-fade") {
+        options.direction_fade = value;
+    } else if (name == "pipelined") {
+        options.is_pipelined = value != 0;
+    } else {
+        assert(name == "rings");
+        options.shows_rings = value != 0;
+    }
+}
+
+FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px) {
+    bool is_paper = options.variant == Variant::paper;
+    FieldOptions made = is_paper ? paper_options(images) : options_to_horizon(images, focal_px);
+    if (!is_paper) {
+        made.ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
+        made.displacement_px = options.error_px;
+    }
+    if (options.radius_m > 0) made.ladder.radius_m = options.radius_m;
+    return made;
+}
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,38 @@
+// What is asked of planted ground, and how it is drawn.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "formats/setting.h"
+#include "runtime/wang_ldi/field.h"
+
+namespace overlook::wang_ldi {
+
+enum class Variant {
+    own,    // to the horizon, levels and directions fade, by depth
+    paper,  // as printed in 2002: 40 tiles far, no fades, tiles back to front
+};
+
+struct FrameOptions {
+    Variant variant = Variant::own;
+    double error_px = 1;          // > 0; of the terrain, and of what tiles stand off it
+    double radius_m = 0;          // nothing is planted beyond; 0: the variant's own
+    double fade = 0.05;           // of own: LadderOptions::fade_share
+    double direction_fade = 0.1;  // of own: FieldOptions::direction_fade_share
+    bool is_pipelined = false;    // the warp of the next frame overlaps drawing this one, which is shown a frame late
+    bool shows_rings = false;     // levels and directions by colours (the paper's figure 7)
+
+    bool operator==(const FrameOptions&) const = default;
+};
+FrameOptions defaults_of(Variant variant);
+
+// What people may set of a variant.
+std::span<const SettingKind> setting_kinds(Variant variant);
+// name and value must be of one of them.
+void set(FrameOptions& options, std::string_view name, double value);
+
+// Of a picture with so many pixels per unit of tangent.
+FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px);
+
+}  // namespace overlook::wang_ldi

@@ -1,0 +1,216 @@
+// Planted ground from frame to frame: what hides what, pictures that are late, images that are not there yet.
+#include <gtest/gtest.h>
+
+#include "runtime/wang_ldi/draw_land.h"
+#include "runtime/wang_ldi/rings.h"
+#include "tests/formats/scratch_folder.h"
+#include "tests/gl/fixture.h"
+#include "tests/gl/planting_file.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr uint32_t kSide = 8;
+
+view::Camera small_camera() {
+    view::Camera camera;
+    camera.width_px = camera.height_px = kSide, camera.near_m = 0.1;
+    return camera;
+}
+
+// Everything is grey and 10 m away.
+gl::Target grey_target() {
+    auto target = gl::Target::make(kSide, kSide, 1);
+    EXPECT_TRUE(target);
+    target->bind();
+    const GLfloat grey[] = {0.5f, 0.5f, 0.5f, 1}, depth = 0.1f / 10;
+    glClearBufferfv(GL_COLOR, 0, grey);
+    glClearBufferfv(GL_DEPTH, 0, &depth);
+    return std::move(*target);
+}
+
+TEST(Composite, HidesWhatIsFartherAndIsHiddenByWhatIsNearer) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    auto composite = Composite::make();
+    ASSERT_TRUE(composite) << composite.error().message;
+    gl::Target target = grey_target();
+    Warped picture;
+    picture.clear(kSide, kSide);
+    auto put = [&](uint32_t x, uint32_t y, uint32_t colour, float depth_m) {
+        picture.colours[y * kSide + x] = colour, picture.depth_m[y * kSide + x] = depth_m;
+    };
+    put(1, 0, 0xff0000ff, 5), put(2, 0, 0xff00ff00, 20), put(7, 6, 0xffff0000, 9.99f), put(6, 6, 0xffff0000, 10.01f);
+    EXPECT_EQ(composite->take(picture), kSide * kSide * 8u);
+    composite->draw(target, small_camera(), 0);
+    ImageRgb8 drawn = target.read();
+    std::vector<float> depth = target.read_depth();
+    const test::Rgb grey = test::pixel(drawn, 0, 0);
+    EXPECT_TRUE(test::is_near(grey, {128, 128, 128}, 1));
+    EXPECT_EQ(test::pixel(drawn, 1, 0), (test::Rgb{255, 0, 0}));
+    EXPECT_EQ(test::pixel(drawn, 2, 0), grey);
+    EXPECT_EQ(test::pixel(drawn, 7, 6), (test::Rgb{0, 0, 255}));
+    EXPECT_EQ(test::pixel(drawn, 6, 6), grey);
+    EXPECT_FLOAT_EQ(depth[1], 0.1f / 5);
+    EXPECT_FLOAT_EQ(depth[2], 0.1f / 10);
+}
+
+TEST(Composite, PutsTheAirBeforeWhatIsFar) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    auto composite = Composite::make();
+    ASSERT_TRUE(composite) << composite.error().message;
+    gl::Target target = grey_target();
+    Warped picture;
+    picture.clear(kSide, kSide);
+    picture.colours[0] = picture.colours[1] = 0xff0000ff, picture.depth_m[0] = 0.5f, picture.depth_m[1] = 9.5f;
+    composite->take(picture);
+    composite->draw(target, small_camera(), 0.05);
+    ImageRgb8 drawn = target.read();
+    EXPECT_LT(test::pixel(drawn, 0, 0).blue, 40);
+    EXPECT_GT(test::pixel(drawn, 1, 0).blue, 100);
+    EXPECT_GT(test::pixel(drawn, 0, 0).red, test::pixel(drawn, 1, 0).red);
+}
+
+// Mounds on a plain.
+class Frames : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        std::string reason;
+        context_ = test::software_context(reason);
+        if (!context_) GTEST_SKIP() << "no software renderer: " << reason;
+        write_mounds(folder_ / "mounds.ovl");
+        auto file = container::Reader::open(folder_ / "mounds.ovl");
+        ASSERT_TRUE(file);
+        auto land = PlantedLand::read(std::move(*file), {}, {}, "");
+        ASSERT_TRUE(land) << land.error().message;
+        land_ = std::move(*land);
+        ASSERT_TRUE(land_->upload());
+    }
+    std::unique_ptr<FrameDrawer> frames(const FrameOptions& options, const ImageStreaming& streaming) {
+        auto made = FrameDrawer::make(land_->planted(), land_->land(), options, streaming);
+        EXPECT_TRUE(made) << made.error().message;
+        return std::move(*made);
+    }
+    static ImageStreaming waiting() {
+        ImageStreaming streaming;
+        streaming.settings.latency_frames = 1, streaming.waits = true;
+        return streaming;
+    }
+    // A step north each frame.
+    static view::Camera camera(int frame) { return head_camera({0.7, 0.9 + 0.8 * frame, 1.7}, 12); }
+    ImageRgb8 picture(FrameDrawer& frames, int frame) {
+        auto decided = frames.decide(camera(frame), 0.1, 0);
+        EXPECT_TRUE(decided) << decided.error().message;
+        auto target = gl::Target::make(640, 480, 1);
+        EXPECT_TRUE(target);
+        frames.draw(*target, {});
+        return target->read();
+    }
+
+    ScratchFolder folder_;
+    std::optional<gl::Context> context_;
+    std::unique_ptr<PlantedLand> land_;
+};
+
+TEST_F(Frames, ShowMoundsBelowTheSky) {
+    auto drawer = frames({}, waiting());
+    ImageRgb8 drawn = picture(*drawer, 0);
+    const FrameCounts& counts = drawer->counts();
+    EXPECT_GT(counts.warp.samples_drawn, 10'000u);
+    EXPECT_GT(counts.field.tiles_listed, 50u);
+    EXPECT_EQ(counts.images.stand_ins + counts.images.missing + counts.warp.images_missing, 0u);
+    EXPECT_GT(counts.stream.resident_bytes, 0u);
+    auto in_rows = [&](uint32_t from, uint32_t to, const auto& is_it) {
+        int count = 0;
+        for (uint32_t y = from; y < to; ++y)
+            for (uint32_t x = 0; x < 640; ++x) count += is_it(test::pixel(drawn, x, y));
+        return count;
+    };
+    EXPECT_EQ(in_rows(0, 40, [](const test::Rgb& c) { return c.blue < c.red; }), 0);  // sky
+    // Level 0 has green 60, level 1 120; blue says the direction.
+    EXPECT_GT(in_rows(300, 480, [](const test::Rgb& c) { return std::abs(c.green - 60) <= 1; }), 20'000);
+    EXPECT_EQ(in_rows(420, 480, [](const test::Rgb& c) { return std::abs(c.green - 120) <= 1; }), 0);
+}
+
+TEST_F(Frames, ThatArePipelinedAreThoseOfTheFrameBefore) {
+    FrameOptions late;
+    late.is_pipelined = true;
+    auto now = frames({}, waiting()), before = frames(late, waiting());
+    std::vector<ImageRgb8> pictures;
+    for (int frame = 0; frame < 4; ++frame) {
+        pictures.push_back(picture(*now, frame));
+        EXPECT_EQ(now->counts().latency_frames, 0u);
+        ImageRgb8 shown = picture(*before, frame);
+        EXPECT_EQ(before->counts().latency_frames, frame == 0 ? 0u : 1u);
+        EXPECT_TRUE(shown.pixels == pictures[size_t(std::max(0, frame - 1))].pixels) << frame;
+    }
+    EXPECT_FALSE(pictures[0].pixels == pictures[1].pixels);
+    before->change({});  // and at once again
+    EXPECT_TRUE(picture(*before, 3).pixels == pictures[3].pixels);
+    EXPECT_EQ(before->counts().latency_frames, 0u);
+}
+
+TEST_F(Frames, HaveOthersInPlaceOfImagesThatAreOnTheirWay) {
+    ImageStreaming late;
+    late.settings.latency_frames = 3;
+    auto waited = frames({}, waiting()), streamed = frames({}, late);
+    ImageRgb8 whole = picture(*waited, 0);
+    ImageRgb8 first = picture(*streamed, 0);
+    EXPECT_GT(streamed->counts().images.stand_ins, 10u);
+    EXPECT_EQ(streamed->counts().images.missing + streamed->counts().warp.images_missing, 0u);
+    EXPECT_FALSE(first.pixels == whole.pixels);
+    ImageRgb8 last;
+    for (int again = 0; again < 4; ++again) last = picture(*streamed, 0);
+    EXPECT_EQ(streamed->counts().images.stand_ins, 0u);
+    EXPECT_TRUE(last.pixels == whole.pixels);
+}
+
+TEST_F(Frames, KeepTheBudgetOfTheirImages) {
+    auto roomy = frames({}, waiting());
+    picture(*roomy, 0);
+    ImageStreaming tight = waiting();
+    tight.settings.residency_budget_bytes = tight.settings.upload_budget_bytes = roomy->counts().stream.resident_bytes * 2 / 3;
+    auto drawer = frames({}, tight);
+    for (int frame = 0; frame < 6; ++frame) {
+        picture(*drawer, 3 * frame);
+        const FrameCounts& counts = drawer->counts();
+        EXPECT_LE(counts.stream.resident_bytes + counts.stream.on_the_way_bytes, tight.settings.residency_budget_bytes);
+        EXPECT_GT(counts.images.stand_ins, 0u);
+        EXPECT_EQ(counts.warp.images_missing, 0u);
+    }
+    EXPECT_GT(drawer->counts().stream.dropped_count, 0u);
+    tight.settings.residency_budget_bytes = 1000;
+    auto refused = FrameDrawer::make(land_->planted(), land_->land(), {}, tight);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().exit, Exit::impossible);
+}
+
+TEST_F(Frames, ShowRingsByColours) {
+    FrameOptions rings;
+    rings.shows_rings = true;
+    auto plain = frames({}, waiting()), coloured = frames(rings, waiting());
+    ImageRgb8 own = picture(*plain, 0), shown = picture(*coloured, 0);
+    EXPECT_FALSE(own.pixels == shown.pixels);
+    EXPECT_EQ(plain->counts().warp, coloured->counts().warp);
+    int first_ring = 0;
+    for (uint32_t x = 0; x < 640; ++x)
+        for (uint32_t y = 300; y < 480; ++y) {
+            test::Rgb colour = test::pixel(shown, x, y);
+            first_ring += colour.red > 2 * colour.green && colour.red > 2 * colour.blue;
+        }
+    EXPECT_GT(first_ring, 20'000);
+}
+
+TEST_F(Frames, RefuseFilesWithoutImages) {
+    write_mounds(folder_ / "bare.ovl", false);
+    auto file = container::Reader::open(folder_ / "bare.ovl");
+    ASSERT_TRUE(file);
+    auto land = PlantedLand::read(std::move(*file), {}, {}, "");
+    ASSERT_FALSE(land);
+    EXPECT_EQ(land.error().exit, Exit::bad_input);
+    EXPECT_TRUE(
+        land.error().message.ends_with("bare.ovl: holds a planting without images; bake it without --only planting to draw it"))
+        << land.error().message;
+}
+
+}  // namespace
+}  // namespace overlook::wang_ldi
