@@ -66,7 +66,6 @@ struct Layer {
     // Where the asset stands, each time whole, before `transform` is applied to all; of method discrete alone. None: once, as it
     // is.
     std::vector<Instance> instances;                        // at most kMostInstances
-    std::optional<Planting> planting;                       // of method wang-ldi alone
     std::string method;                                     // one of kMethods
     std::string variant;                                    // as in "lod-sprite:paper"; empty = the default one
     std::vector<std::pair<std::string, Setting>> settings;  // in the file's order; which there are, the method knows
