@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <map>
 
 #include "runtime/wang_ldi/random.h"
 
@@ -161,18 +162,21 @@ NeighbourCount count_neighbours(const TileSet& set, const Tiling& tiling) {
 }
 
 CornerAt corners_of_density(const TileSet& set, std::function<double(int64_t x, int64_t y)> density_at, uint64_t seed) {
-    std::vector<uint8_t> by_density(set.corner_density.size());
-    for (size_t c = 0; c < by_density.size(); ++c) by_density[c] = uint8_t(c);
-    std::stable_sort(by_density.begin(), by_density.end(),
-                     [&](uint8_t a, uint8_t b) { return set.corner_density[a] < set.corner_density[b]; });
-    return [by_density, densities = set.corner_density, density_at = std::move(density_at), seed](int64_t x, int64_t y) {
+    std::map<float, std::vector<uint8_t>> by_density;  // colours of one density stand for each other
+    for (size_t c = 0; c < set.corner_density.size(); ++c) by_density[set.corner_density[c]].push_back(uint8_t(c));
+    std::vector<double> densities;
+    std::vector<std::vector<uint8_t>> colours;
+    for (const auto& [density, of_density] : by_density) densities.push_back(double(density)), colours.push_back(of_density);
+    return [densities, colours, density_at = std::move(density_at), seed](int64_t x, int64_t y) {
         double wanted = density_at(x, y), unit = double(hash_of(seed, 0x64, x, y) >> 11) * 0x1p-53;
-        size_t above = 0;
-        while (above + 1 < by_density.size() && double(densities[by_density[above]]) < wanted) ++above;
-        if (above == 0) return by_density[0];
-        double low = double(densities[by_density[above - 1]]), high = double(densities[by_density[above]]);
-        double share = high > low ? std::clamp((wanted - low) / (high - low), 0.0, 1.0) : 1;
-        return by_density[unit < share ? above : above - 1];
+        size_t chosen = 0;
+        while (chosen + 1 < densities.size() && densities[chosen] < wanted) ++chosen;
+        if (chosen > 0) {
+            double low = densities[chosen - 1], high = densities[chosen];
+            chosen -= unit >= std::clamp((wanted - low) / (high - low), 0.0, 1.0);
+        }
+        const std::vector<uint8_t>& of_density = colours[chosen];
+        return of_density[below(hash_of(seed, 0x6463, x, y), uint32_t(of_density.size()))];
     };
 }
 

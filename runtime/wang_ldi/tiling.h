@@ -30,7 +30,8 @@ struct Tiling {
 using CornerAt = std::function<uint8_t(int64_t x, int64_t y)>;
 
 // Corner colours so that the ground follows a map of densities: at (x, y), whose wanted density (0..1) density_at gives, one of
-// the set's two nearest densities, as often as makes the mean right. Same seed, same corners.
+// the set's two nearest densities, as often as makes the mean right; among colours of one density each as likely as the others.
+// Same seed, same corners.
 CornerAt corners_of_density(const TileSet& set, std::function<double(int64_t x, int64_t y)> density_at, uint64_t seed);
 
 struct TilingOptions {

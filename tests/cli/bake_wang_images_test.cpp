@@ -255,7 +255,27 @@ TEST(BakeWangImages, RefusesTilesThatAreTooNear) {
                    {"within a tile of 3 m", "--nearest-m 2.1"});
     expect_refusal(run(words_of(folder, "a.ovl", {"--fov-y-deg", "1", "--nearest-m", "3"})), 2, "bake-wang-ldi",
                    {"4,096 are possible"});
+    // Nearer than the default of 2.5 tiles, in parts too; nothing is left behind.
+    Words near = words_of(folder, "a.ovl");
+    near.back() = "5";
+    for (const Words& more : {Words{}, Words{"--part", "1/2"}}) {
+        Words words = near;
+        words.insert(words.end(), more.begin(), more.end());
+        expect_refusal(run(words), 2, "bake-wang-ldi", {"5 m from the eye at most, 7.5 m at least", "--farthest-m 7.5"});
+    }
     EXPECT_FALSE(fs::exists(folder / "a.ovl"));
+    EXPECT_FALSE(fs::exists(folder / "a.ovl.parts"));
+}
+
+TEST(BakeWangImages, RefusesModelsThatStandOutOfTheirTightRadius) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    write_text(folder / "bush.obj", "v 0 0 2\nv 1.2 0.5 0\nv -0.2 0.1 0\nf 1 2 3\n");
+    auto before = contents_of(folder.path());
+    expect_refusal(run(words_of(folder, "a.ovl")), 3, "bake-wang-ldi",
+                   {"bush.obj", "1.3 m from its middle", "tight_radius_m is 0.26"});
+    expect_refusal(run(words_of(folder, "a.ovl", {"--part", "1/2"})), 3, "bake-wang-ldi", {"bush.obj"});
+    EXPECT_EQ(contents_of(folder.path()), before);
 }
 
 }  // namespace

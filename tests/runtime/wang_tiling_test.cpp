@@ -189,5 +189,17 @@ TEST(DensityMap, IsFollowedWithEveryEdgeMet) {
     }
 }
 
+TEST(DensityMap, UsesEveryColourOfADensitySoThatEvenGroundDoesNotRepeat) {
+    for (const std::vector<float>& densities : {std::vector<float>{1, 1}, {1, 1, 0}, {0, 1, 1}}) {
+        TileSet set = corners_of_densities(densities);
+        auto even = RandomTiling::of(set, 4, corners_of_density(set, [](int64_t, int64_t) { return 1.0; }, 4));
+        ASSERT_TRUE(even) << even.error().message;
+        Tiling tiling = window_of(*even, -20, 7, 512);
+        EXPECT_EQ(std::set<uint8_t>(tiling.tiles.begin(), tiling.tiles.end()).size(), 16u);
+        EXPECT_LE(std::abs(greatest_correlation(tiling).value), 0.02);
+        EXPECT_EQ(count_neighbours(set, tiling).disagreeing, 0u);
+    }
+}
+
 }  // namespace
 }  // namespace overlook::wang_ldi

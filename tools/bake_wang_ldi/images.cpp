@@ -78,13 +78,26 @@ void add_light_options(CLI::App& app, ImageArgs& args) {
                    "K/N: bake the K-th of N parts into the folder of --parts and no file; when all are there, bake without it");
 }
 
+// Nothing of a model stands out of its tight radius, but for rounding.
+Result<void> check_reach(const std::string& path, const rays::Mesh& mesh, float tight_radius_m) {
+    double reach_m = 0;
+    for (const glm::vec3& position : mesh.positions_m)
+        reach_m = std::max(reach_m, std::hypot(double(position.x), double(position.y)));
+    if (reach_m <= double(tight_radius_m) * (1 + 1e-5)) return {};
+    return bad_input("{}: stands out up to {:.4g} m from its middle, its tight_radius_m is {:g}; raise that or scale the model",
+                     path, reach_m, tight_radius_m);
+}
+
 Result<wang_ldi::Models> read_models(const GroundDone& ground, float transmission) {
     wang_ldi::Models models;
-    for (const std::string& path : ground.recipe.files) {
+    for (size_t m = 0; m < ground.recipe.files.size(); ++m) {
+        const std::string& path = ground.recipe.files[m];
         auto file = mesh::open_mesh(path);
         if (!file) return tl::unexpected(file.error());
         if (auto added = wang_ldi::add_model(file->mesh, {transmission}, models); !added)
             return tl::unexpected(Error{added.error().exit, path + ": " + added.error().message});
+        float tight_radius_m = ground.ground.planting.models[m].tight_radius_m;
+        if (auto fits = check_reach(path, models.meshes.back(), tight_radius_m); !fits) return tl::unexpected(fits.error());
     }
     return models;
 }

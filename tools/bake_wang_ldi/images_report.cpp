@@ -66,6 +66,7 @@ std::string images_json(const wang_ldi::ImageReport& report) {
     json["directions"] = report.set.direction_count, json["contexts"] = report.set.context_count;
     json["eyes_m"] = {report.set.cell.eye_low_m, report.set.cell.eye_high_m};
     json["distances_m"] = {report.set.cell.nearest_m, report.set.cell.farthest_m};
+    json["images_above_goal"] = report.above_goal;
     json["taken_from_parts"] = report.taken_from_parts, json["baked"] = report.made, json["seconds"] = report.seconds;
     for (uint32_t k = 0; k < report.set.levels.size(); ++k) {
         const wang_ldi::Level& level = report.set.levels[k];
@@ -101,6 +102,10 @@ void say_images(const wang_ldi::ImageReport& report, const command::Common& comm
                               "from a tile's middle",
                               100 * total.unseen_sum / double(total.images), 100 * total.unseen_most, report.set.cell.eye_low_m,
                               report.set.cell.eye_high_m, report.set.cell.nearest_m, report.set.cell.farthest_m));
+    if (report.above_goal > 0)
+        command::note(common, fmt::format("{} of {} images have more unseen than --unseen asks for, {:.2f} % at most: they took "
+                                          "the most rays that are shot; ask for more error or a greater nearest distance",
+                                          report.above_goal, total.images, 100 * total.unseen_most));
     if (total.own.pixels > 0) {
         auto share = [](const Judgement& judgement) {
             return 100 * double(judgement.holes) / double(std::max<uint64_t>(1, judgement.pixels));

@@ -74,6 +74,26 @@ TEST(ImageBakes, CanBeReadAgainAndStateWhatWasCounted) {
     EXPECT_GT(double(on_border), 1.02 * double(in_context));  // neighbours hide nothing
 }
 
+TEST(ImageBakes, SayHowManyImagesHaveMoreUnseenThanWasAsked) {
+    ScratchFolder folder;
+    ImageBake bake = small_bake();
+    auto kept = baked(folder / "a.ovl", bake);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->above_goal, 0u);
+    bake.sampling.most_rays = 20'000;
+    auto missed = baked(folder / "a.ovl", bake);
+    ASSERT_TRUE(missed);
+    uint64_t above = 0;
+    for (const ImageRow& row : missed->rows) above += row.unseen_share > 0.05;
+    EXPECT_GT(above, 0u);
+    EXPECT_EQ(missed->above_goal, above);
+    // Of the paper's fixed rays nothing is asked.
+    bake.sampling.fixed_rays = 20'000;
+    auto fixed = baked(folder / "a.ovl", bake);
+    ASSERT_TRUE(fixed);
+    EXPECT_EQ(fixed->above_goal, 0u);
+}
+
 TEST(ImageBakes, GoOnWhereTheyWereStopped) {
     ScratchFolder folder;
     ImageBake bake = small_bake();

@@ -59,6 +59,23 @@ TEST(Levels, ThatNobodyCanHaveAreRefusedWithAWayOut) {
     EXPECT_NE(fine.error().message.find("4,096 are possible"), std::string::npos) << fine.error().message;
 }
 
+TEST(Levels, OfOneDistanceAreOneAsFineAsElsewhere) {
+    LevelOptions options;
+    options.set = plants::image_set();
+    auto many = leveled(options);
+    options.set.cell.farthest_m = options.set.cell.nearest_m;
+    auto one = leveled(options);
+    ASSERT_TRUE(many && one);
+    ASSERT_EQ(one->levels.size(), 1u);
+    EXPECT_EQ(one->levels[0].side_px, many->levels[0].side_px);
+    EXPECT_GT(one->levels[0].side_px, 100u);
+    options.set.cell = {1.5, 1.9, 0, 5, 400, 1};  // 10 m by default
+    auto none = leveled(options);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().exit, Exit::bad_command);
+    EXPECT_NE(none.error().message.find("5 m from the eye at most, 10 m at least"), std::string::npos) << none.error().message;
+}
+
 TEST(Directions, AreTheFewestThatKeepTheBudget) {
     for (double radius : {10.0, 95.0, 97.0, 250.0, 500.0}) {
         uint32_t n = directions_for(radius, 96);

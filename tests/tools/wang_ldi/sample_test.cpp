@@ -59,6 +59,54 @@ TEST(Samples, AreWhatTheEstimateSaysOfHeldOutRays) {
     }
 }
 
+// Balls that touch hide much of each other, and eyes in the clefts between them see what no other does.
+TEST(Samples, OfPackedBallsLackNoMoreThanTheEstimateSaysOfAMillionRays) {
+    Models models;
+    models.meshes = {plants::ball(0.25f, 0.25f, 12)}, models.skins = {Skin{}};
+    std::vector<rays::Copy> copies;
+    for (int i = 0; i < 64; ++i) copies.push_back(at(0, 0.25f + 0.5f * float(i % 8), 0.25f + 0.5f * float(i / 8)));
+    std::vector<Stage> stages;
+    stages.push_back(staged(models, copies));
+    ImageSet set = plants::image_set();
+    set.high_m = 0.5, set.levels[0].side_px = 90;
+    double estimates = 0, all_held_out = 0;
+    for (uint32_t directions : {1u, 3u, 8u})
+        for (uint64_t seed : {1u, 2u}) {
+            set.direction_count = directions;
+            SampleOptions options;
+            options.seed = seed;
+            Wedge wedge = wedge_of(set, 0, 1 % directions);
+            Sampled all = sampled(models, stages, wedge, options);
+            EXPECT_LE(all.unseen_share, 0.02);
+            double held_out = unseen_of_held_out(stages, wedge, all, 1'000'000, 99);
+            EXPECT_LE(held_out, 1.2 * all.unseen_share) << directions << " " << seed;
+            estimates += all.unseen_share, all_held_out += held_out;
+        }
+    // Eyes are spread evenly: one that is left out is farther from the others than one anywhere.
+    EXPECT_LE(estimates, 2 * all_held_out);
+}
+
+// A blade 2 cm wide in a tile of 30 m is met by a ray in ten thousand.
+TEST(Samples, OfABladeInAWideTileAreNotTakenForAllAfterAFewHits) {
+    Models models;
+    models.meshes = {rays::Mesh()}, models.skins = {Skin{}};
+    plants::add_triangle(models.meshes[0], {-0.01f, 0, 0}, {0.01f, 0, 0}, {0.01f, 0, 1.2f});
+    plants::add_triangle(models.meshes[0], {-0.01f, 0, 0}, {0.01f, 0, 1.2f}, {-0.01f, 0, 1.2f});
+    std::vector<Stage> stages;
+    stages.push_back(staged(models, {at(0, 15, 15)}));
+    ImageSet set = plants::image_set();
+    set.tile_m = 30, set.high_m = 1.3, set.cell.nearest_m = 75, set.cell.farthest_m = 110;
+    set.levels = {{346, 75, 0.02f, 1}};
+    Wedge wedge = wedge_of(set, 0, 0);
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
+        SampleOptions options;
+        options.seed = seed;
+        Sampled all = sampled(models, stages, wedge, options);
+        EXPECT_GE(all.hits, 200u);
+        EXPECT_LE(unseen_of_held_out(stages, wedge, all, 6'000'000, 99), 0.1) << seed << ": of " << all.rays;
+    }
+}
+
 TEST(Samples, StopAfterTheRaysThatThePaperShoots) {
     Field field;
     SampleOptions options;
@@ -76,6 +124,7 @@ TEST(Samples, OfAnEmptyTileAreNone) {
     Sampled all = sampled(models, stages, wedge_of(plants::image_set(), 0, 0), {});
     EXPECT_EQ(all.samples.size(), 0u);
     EXPECT_LT(all.eyes, 100u);
+    EXPECT_EQ(all.unseen_share, 0);
 }
 
 TEST(Samples, ShowNoWallsFromBehindAndNothingThatNeighboursHide) {

@@ -21,7 +21,6 @@ constexpr const char* kNoMemory =
     "threads";
 constexpr uint64_t kPaperRays = 2'500'000;
 constexpr uint32_t kPaperEyes = 64;
-constexpr uint32_t kLeastRaysPerEye = 1024;
 constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44;
 
 // A hash of values and rows of them, as they lie in memory: for a key that never leaves this machine.
@@ -104,9 +103,6 @@ Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreig
     auto index = int64_t(index_of(set_, which));
     SampleOptions options = bake_.sampling;
     options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
-    // A coarse image needs many eyes more than many rays of each.
-    uint32_t side = set_.levels[which.level].side_px;
-    if (options.fixed_rays == 0) options.rays_per_eye = std::clamp(4 * side * side, kLeastRaysPerEye, options.rays_per_eye);
     Sampled all = sampled(models_, stages, wedge_of(set_, which.level, which.direction), options);
     Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, hash_of(bake_.seed, kLightStream, index, 0)));
     auto bytes = packed(set_, which.level, ldi);
@@ -203,6 +199,8 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
 void SetBake::add_rows(uint64_t first, const std::vector<Shard>& shards) {
     for (size_t i = 0; i < shards.size(); ++i) {
         const Shard& shard = shards[i];
+        bool has_goal = bake_.sampling.fixed_rays == 0;
+        report_.above_goal += has_goal && double(shard.packed.unseen_share) > bake_.sampling.unseen_goal;
         report_.rows.push_back({which_of(set_, first + i), shard.packed.sample_count, shard.packed.bytes.size(), shard.rays,
                                 shard.hits, shard.eyes, double(shard.packed.unseen_share), shard.judgement, shard.foreign});
     }

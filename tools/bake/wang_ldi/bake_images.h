@@ -44,6 +44,7 @@ struct ImageReport {
     std::vector<ImageRow> rows;     // in the order of index_of; none of a part
     uint64_t made = 0;              // images that were baked anew
     uint64_t taken_from_parts = 0;  // of rows
+    uint64_t above_goal = 0;  // of rows: those with more unseen than was asked for, after the most rays that are shot
     double seconds = 0;
     Shards parts;  // to be removed (remove_all) when the file is committed
 };

@@ -53,14 +53,13 @@ Result<void> choose(const LevelOptions& options, ImageSet& set) {
             "a pixel error of {} px needs {} pixels along a tile, {} are possible; ask for more error or a greater nearest "
             "distance",
             set.cell.error_px, with_commas(uint64_t(most)), with_commas(kMostSide_px));
-    while (at < set.cell.farthest_m && set.levels.size() < kMostLevels) {
-        auto side = uint32_t(std::ceil(side_wanted(set, at)));
-        if (!set.levels.empty() && side >= set.levels.back().side_px) break;
-        if (side < kLeastSide_px) break;
-        set.levels.push_back(level_of(options, side, at));
+    set.levels.push_back(level_of(options, std::max(kLeastSide_px, uint32_t(std::ceil(side_wanted(set, at)))), at));
+    while (set.levels.size() < kMostLevels) {
         at = next_distance_m(set, at, options.level_ratio);
+        auto side = uint32_t(std::ceil(side_wanted(set, at)));
+        if (at >= set.cell.farthest_m || side >= set.levels.back().side_px || side < kLeastSide_px) break;
+        set.levels.push_back(level_of(options, side, at));
     }
-    if (set.levels.empty()) set.levels.push_back(level_of(options, kLeastSide_px, at));
     double radius_px = rim * set.cell.focal_px / set.cell.nearest_m;
     set.direction_count = directions_for(radius_px, options.direction_px);
     return {};
@@ -91,6 +90,9 @@ Result<ImageSet> leveled(const LevelOptions& options) {
     }
     if (set.cell.nearest_m == 0) set.cell.nearest_m = kNearestTiles * set.tile_m;
     if (set.cell.farthest_m == 0) set.cell.farthest_m = std::max(kFarthestTiles * set.tile_m, set.cell.nearest_m);
+    if (set.cell.farthest_m < set.cell.nearest_m)
+        return bad_command("tiles {} m from the eye at most, {} m at least; give --farthest-m {} or more, or --nearest-m",
+                           set.cell.farthest_m, set.cell.nearest_m, set.cell.nearest_m);
     if (auto chosen = choose(options, set); !chosen) return tl::unexpected(chosen.error());
     return set;
 }

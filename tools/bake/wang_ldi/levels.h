@@ -29,6 +29,7 @@ uint32_t directions_for(double radius_px, double direction_px);
 
 // The set with its levels and directions. Chosen: a pixel of a level is error_px on the screen where the level begins. Paper:
 // 468, 232, 151, 111, 88, 73 and 62 pixels for the rings at one to seven tiles, 8 directions. Fails with Exit::bad_command:
+// "tiles 5 m from the eye at most, 7.5 m at least; give --farthest-m 7.5 or more, or --nearest-m",
 // "tiles begin at 2 m from the eye, within a tile of 4 m; --nearest-m 3 at least, nearer ones are drawn as geometry", "a pixel
 // error of 0.01 px needs 20,000 pixels along a tile, 4,096 are possible; ask for more error or a greater nearest distance".
 Result<ImageSet> leveled(const LevelOptions& options);

@@ -11,6 +11,11 @@ namespace {
 constexpr uint32_t kLayersLog2 = 24;  // of cubes above each other
 constexpr uint32_t kMostLooks = 4;    // of what is met in a cube, so many first ones are looked at: its colour and normal
 
+constexpr uint32_t kLeastRaysPerEye = 1024;
+// Over the goal: of so many hits some would be in cubes of one eye, were the goal's share unseen, but for 2 % of the cases (e^-4).
+constexpr double kLeastHits = 4;
+constexpr uint64_t kEyesOfNothing = 4;  // times the least: then a tile is empty
+
 // The cube that a place is in; false outside of the tile.
 bool cube_of(const Wedge& wedge, const glm::dvec3& at, uint64_t& cube) {
     double per_m = wedge.side_px / wedge.tile_m;
@@ -25,7 +30,8 @@ struct Cube {
     double height_sum_m = 0;
     glm::vec3 albedo_sum{0}, normal_sum{0};
     uint32_t met = 0, looks = 0;
-    uint64_t place = 0;
+    bool is_of_one_eye = true;
+    uint64_t place = 0, eye = 0;  // the first that met it
     rays::Hit first;
     uint32_t stage = 0;
     glm::vec3 seen_along{0};
@@ -35,8 +41,11 @@ class Sampler {
   public:
     Sampler(const Models& models, const Wedge& wedge) : models_(models), wedge_(wedge) {}
     void shoot(std::span<const Stage> stages, size_t stage, const Eye& eye);
-    double unseen_share() const { return hits_ == 0 ? 1 : double(met_once_) / double(hits_); }
+    // The rays of an eye are no draws at random, they meet the same cubes over and over; eyes are. So each eye is held out in turn:
+    // of its hits, those in cubes that no other has met.
+    double unseen_share() const { return hits_ == 0 ? 0 : double(of_one_eye_) / double(hits_); }
     uint64_t rays() const { return rays_; }
+    uint64_t hits() const { return hits_; }
     Sampled take();
 
   private:
@@ -47,7 +56,7 @@ class Sampler {
     CubeTable table_;
     std::vector<Cube> cubes_;
     std::vector<rays::Hit> found_;
-    uint64_t rays_ = 0, hits_ = 0, met_once_ = 0, eyes_ = 0;
+    uint64_t rays_ = 0, hits_ = 0, of_one_eye_ = 0, eyes_ = 0;  // of_one_eye_: hits in cubes that one eye alone has met
 };
 
 void Sampler::keep(std::span<const Stage> stages, size_t stage, const rays::Ray& ray, const rays::Hit& hit) {
@@ -58,12 +67,12 @@ void Sampler::keep(std::span<const Stage> stages, size_t stage, const rays::Ray&
     if (number == cubes_.size()) {
         cubes_.emplace_back();
         cubes_.back().place = place, cubes_.back().first = hit, cubes_.back().seen_along = ray.along;
-        cubes_.back().stage = uint32_t(stage);
+        cubes_.back().stage = uint32_t(stage), cubes_.back().eye = eyes_;
     }
     Cube& cube = cubes_[number];
     ++hits_, ++cube.met;
-    if (cube.met == 1) ++met_once_;
-    if (cube.met == 2) --met_once_;
+    if (cube.is_of_one_eye && cube.eye == eyes_) ++of_one_eye_;
+    if (cube.is_of_one_eye && cube.eye != eyes_) cube.is_of_one_eye = false, of_one_eye_ -= cube.met - 1;
     cube.height_sum_m += at.z - wedge_.low_m;
     if (cube.looks == kMostLooks) return;
     Point point = point_of(models_, stages[stage].copies, hit, ray.along);
@@ -86,6 +95,7 @@ Sampled Sampler::take() {
     for (const Cube& cube : cubes_) {
         Sample sample;
         sample.pixel = uint32_t(cube.place >> kLayersLog2), sample.met = cube.met;
+        sample.layer = uint32_t(cube.place & ((1u << kLayersLog2) - 1));
         sample.height_m = float(cube.height_sum_m / cube.met), sample.albedo = cube.albedo_sum / float(cube.looks);
         float length = glm::length(cube.normal_sum);
         sample.normal = length > 1e-6f ? cube.normal_sum / length : -glm::normalize(cube.seen_along);
@@ -97,18 +107,25 @@ Sampled Sampler::take() {
 
 }  // namespace
 
+uint32_t rays_per_eye(const Wedge& wedge, const SampleOptions& options) {
+    if (options.fixed_rays > 0) return options.rays_per_eye;
+    return std::clamp(4 * wedge.side_px * wedge.side_px, std::min(kLeastRaysPerEye, options.rays_per_eye), options.rays_per_eye);
+}
+
 Sampled sampled(const Models& models, std::span<const Stage> stages, const Wedge& wedge, const SampleOptions& options) {
     Sampler sampler(models, wedge);
+    double least_hits = kLeastHits / options.unseen_goal;
     auto is_enough = [&](uint64_t eyes) {
         if (options.fixed_rays > 0) return sampler.rays() >= options.fixed_rays;
         if (sampler.rays() >= options.most_rays) return true;
-        return eyes >= options.least_eyes && sampler.unseen_share() <= options.unseen_goal;
+        return eyes >= options.least_eyes && double(sampler.hits()) >= least_hits &&
+               sampler.unseen_share() <= options.unseen_goal;
     };
-    // What no ray meets is never met: an empty tile is done after its least eyes.
-    auto is_empty = [&](uint64_t eyes) { return eyes >= 4 * uint64_t(options.least_eyes) && sampler.unseen_share() == 1; };
+    // What no ray meets is never met.
+    auto is_empty = [&](uint64_t eyes) { return eyes >= kEyesOfNothing * options.least_eyes && sampler.hits() == 0; };
     Eye one;
     for (uint64_t eye = 0; !is_enough(eye) && !is_empty(eye); ++eye) {
-        set_eye(wedge, options.seed, eye, options.rays_per_eye, one);
+        set_eye(wedge, options.seed, eye, rays_per_eye(wedge, options), one);
         sampler.shoot(stages, eye % stages.size(), one);
     }
     return sampler.take();

@@ -3,8 +3,9 @@
 //
 // Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 4; J. Shade, S. Gortler, L. He,
 // R. Szeliski, Layered Depth Images, 1998, section 4 (rays at random; what is met twice is averaged); I. J. Good, The Population
-// Frequencies of Species and the Estimation of Population Parameters, 1953. Different: rays go in coherent rasters, one for each
-// eye, and stop when what is met is known to be nearly all, rather than after a fixed count.
+// Frequencies of Species and the Estimation of Population Parameters, 1953 (what was met once tells of what was not). Different:
+// rays go in coherent rasters, one for each eye, and stop when what is met is known to be nearly all, rather than after a fixed
+// count; what is met by one eye counts as met once, however many of its rays meet it.
 #pragma once
 
 #include <cstdint>
@@ -26,15 +27,18 @@ struct Wedge {
 
 struct SampleOptions {
     uint64_t seed = 1;
-    double unseen_goal = 0.02;         // sampling stops below
+    double unseen_goal = 0.02;         // sampling stops below, after 4 / unseen_goal hits at least
     uint64_t fixed_rays = 0;           // or after so many rays, whatever is unseen; 0: by the goal
     uint64_t most_rays = 400'000'000;  // or after so many, with more unseen than was asked
     uint32_t least_eyes = 16;          // before anything is estimated
-    uint32_t rays_per_eye = 1u << 15;  // of the raster over the tile's box, about
+    uint32_t rays_per_eye = 1u << 15;  // of the raster over the tile's box, about, at most
 };
+// Rays of each eye's raster: of a coarse image fewer, so that its rays come from more eyes.
+uint32_t rays_per_eye(const Wedge& wedge, const SampleOptions& options);
 
 struct Sample {
     uint32_t pixel = 0;   // row * side_px + column
+    uint32_t layer = 0;   // of cubes above low_m: with the pixel, which cube it is
     float height_m = 0;   // above low_m, mean over what was met
     glm::vec3 albedo{0};  // linear, mean over the first of what was met
     glm::vec3 normal{0};  // likewise, of length 1
@@ -50,7 +54,7 @@ struct Sampled {
     uint64_t rays = 0;            // that were shot: those of the rasters that pass the tile's box
     uint64_t hits = 0;            // that met something in the tile
     uint64_t eyes = 0;
-    double unseen_share = 1;  // of hits, those of a cube that was met once
+    double unseen_share = 0;  // of hits, those in cubes that one eye alone has met; 0 if nothing was
 };
 
 // stages: one or more, of the same tile among different neighbours; eyes take them in turn. Same arguments, same samples.

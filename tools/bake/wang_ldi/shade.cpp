@@ -1,7 +1,6 @@
 #include "tools/bake/wang_ldi/shade.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "runtime/wang_ldi/random.h"
@@ -102,7 +101,7 @@ std::vector<glm::vec3> lit_samples(const Models& models, std::span<const Stage> 
         const Stage& stage = stages[sample.stage];
         Point point = point_of(models, stage.copies, sample.hit, sample.seen_along);
         point.albedo = sample.albedo;
-        uint64_t own = hash_of(seed, kPatternStream, sample.pixel, int64_t(std::bit_cast<uint32_t>(sample.height_m)));
+        uint64_t own = hash_of(seed, kPatternStream, sample.pixel, sample.layer);
         colours.push_back(lit(stage.scene, point, light, own));
     }
     return colours;

@@ -26,7 +26,7 @@ struct Light {
 // What a place sends to the viewer, linear. Rays go from `point` into the stage; `seed` turns the pattern of their directions.
 glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed);
 
-// [samples] linear colours. seed: of all patterns; each sample's own follows from its pixel and height.
+// [samples] linear colours. seed: of all patterns; each sample's own follows from its pixel and layer.
 std::vector<glm::vec3> lit_samples(const Models& models, std::span<const Stage> stages, std::span<const Sample> samples,
                                    const Light& light, uint64_t seed);
 
