@@ -70,6 +70,25 @@ Result<TextureSet> read_whole(const container::Reader& file, const ImageSet& ima
 
 }  // namespace
 
+std::vector<std::byte> bytes_of_texture(const DirectionalTexture& texture) {
+    std::vector<std::byte> bytes(textures_at::entry_bytes);
+    store_f32(bytes, textures_at::unseen_share, texture.unseen_share);
+    store_f32(bytes, textures_at::standard_error, texture.standard_error);
+    put_rows(bytes, texture.colours), put_rows(bytes, texture.heights), put_rows(bytes, texture.normals);
+    return bytes;
+}
+
+DirectionalTexture texture_of_bytes(std::span<const std::byte> bytes, uint32_t side_px, bool has_normals) {
+    DirectionalTexture texture;
+    texture.unseen_share = load_f32(bytes, textures_at::unseen_share);
+    texture.standard_error = load_f32(bytes, textures_at::standard_error);
+    size_t texels = texture_texels(side_px);
+    bytes = bytes.subspan(textures_at::entry_bytes);
+    take_rows(bytes, texels, texture.colours), take_rows(bytes, texels, texture.heights);
+    if (has_normals) take_rows(bytes, texels, texture.normals);
+    return texture;
+}
+
 std::vector<std::byte> bytes_of_textures(const TextureSet& set) {
     std::vector<std::byte> bytes(textures_at::bytes);
     bytes.reserve(size_t(texture_bytes_of(set)));
@@ -82,11 +101,8 @@ std::vector<std::byte> bytes_of_textures(const TextureSet& set) {
     store_f64(bytes, textures_at::farthest_m, set.farthest_m), store_f64(bytes, textures_at::eye_low_m, set.eye_low_m);
     store_f64(bytes, textures_at::eye_high_m, set.eye_high_m);
     for (const DirectionalTexture& texture : set.textures) {
-        size_t at = bytes.size();
-        bytes.resize(at + textures_at::entry_bytes);
-        store_f32(bytes, at + textures_at::unseen_share, texture.unseen_share);
-        store_f32(bytes, at + textures_at::standard_error, texture.standard_error);
-        put_rows(bytes, texture.colours), put_rows(bytes, texture.heights), put_rows(bytes, texture.normals);
+        std::vector<std::byte> one = bytes_of_texture(texture);
+        bytes.insert(bytes.end(), one.begin(), one.end());
     }
     return bytes;
 }
@@ -97,16 +113,11 @@ ImageFault textures_of_bytes(std::span<const std::byte> bytes, const ImageSet& i
         return {2, fmt::format("WLDT has {} bytes, {} textures of {} texels a side need {}", bytes.size(), set.texture_count(),
                                set.side_px, texture_bytes_of(set))};
     if (ImageFault fault = fault_of_agreement(set, images)) return fault;
-    size_t texels = texture_texels(set.side_px);
-    bytes = bytes.subspan(textures_at::bytes);
-    set.textures.resize(size_t(set.texture_count()));
-    for (size_t i = 0; i < set.textures.size(); ++i) {
-        DirectionalTexture& texture = set.textures[i];
-        texture.unseen_share = load_f32(bytes, textures_at::unseen_share);
-        texture.standard_error = load_f32(bytes, textures_at::standard_error);
-        bytes = bytes.subspan(textures_at::entry_bytes);
-        take_rows(bytes, texels, texture.colours), take_rows(bytes, texels, texture.heights);
-        if (set.has_normals) take_rows(bytes, texels, texture.normals);
+    size_t of_one = size_t(bytes_of_one_texture(set.side_px, set.has_normals));
+    set.textures.reserve(size_t(set.texture_count()));
+    for (uint64_t i = 0; i < set.texture_count(); ++i) {
+        auto one = bytes.subspan(textures_at::bytes + size_t(i) * of_one, of_one);
+        set.textures.push_back(texture_of_bytes(one, set.side_px, set.has_normals));
         if (ImageFault fault = fault_of_texture(set, i)) return fault;
     }
     return {};

@@ -27,9 +27,9 @@ constexpr uint64_t kMostTextureBytes = uint64_t(1) << 28;  // of all of a file, 
 // what the eyes see. A coarser texel is counted from the same rays, so its colour, height and normal are the means of all that
 // is seen in its square; the last is the tile's mean by direction.
 struct DirectionalTexture {
-    // Red, green, blue, sRGB-encoded, of the (linear) mean of what is seen; and opacity, 0..255 for 0..1: of the sight lines that
-    // reach the box, how many end in it. A texel that no sight line ends in has opacity 0, and else what the next coarser one
-    // has.
+    // Red, green, blue, sRGB-encoded, of the (linear) mean of what is seen; and opacity, 0..255 for 0..1, such that boxes drawn
+    // over each other show as much of each as is seen over its square (less where more than 1 were needed). A texel of which
+    // nothing is seen has opacity 0, and else what the next coarser one has.
     std::vector<std::array<uint8_t, 4>> colours;
     // Mean height above low_m of what is seen, and half the height of the box: the square root of 3 times the standard deviation
     // (an even spread from bottom to top has the same). In steps of (high_m - low_m) / 255.

@@ -23,6 +23,11 @@ constexpr size_t unseen_share = 0, standard_error = 4, entry_bytes = 8;
 // Of the whole section; counts must keep rule 3.
 uint64_t texture_bytes_of(const TextureSet& set);
 
+// Of one texture, its entry first; and back, from exactly so many bytes.
+std::vector<std::byte> bytes_of_texture(const DirectionalTexture& texture);
+DirectionalTexture texture_of_bytes(std::span<const std::byte> bytes, uint32_t side_px, bool has_normals);
+uint64_t bytes_of_one_texture(uint32_t side_px, bool has_normals);
+
 std::vector<std::byte> bytes_of_textures(const TextureSet& set);
 // `bytes` may be hostile; no more memory is taken than they can fill.
 ImageFault textures_of_bytes(std::span<const std::byte> bytes, const ImageSet& images, TextureSet& set);

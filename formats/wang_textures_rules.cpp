@@ -42,9 +42,11 @@ size_t texture_texels(uint32_t side_px) {
     return texture_level_at(side_px, texture_levels(side_px));
 }
 
+uint64_t bytes_of_one_texture(uint32_t side_px, bool has_normals) {
+    return textures_at::entry_bytes + texture_texels(side_px) * (has_normals ? 9u : 6u);
+}
 uint64_t texture_bytes_of(const TextureSet& set) {
-    uint64_t of_one = textures_at::entry_bytes + texture_texels(set.side_px) * (set.has_normals ? 9u : 6u);
-    return textures_at::bytes + set.texture_count() * of_one;
+    return textures_at::bytes + set.texture_count() * bytes_of_one_texture(set.side_px, set.has_normals);
 }
 
 ImageFault fault_of_texture_counts(const TextureSet& set) {

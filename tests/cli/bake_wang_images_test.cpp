@@ -53,7 +53,9 @@ Words words_of(const ScratchFolder& folder, const std::string& output, const Wor
                 "--direction-px",
                 "30",
                 "--farthest-m",
-                "30"};
+                "30",
+                "--textures",
+                "4"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -88,6 +90,31 @@ TEST(BakeWangImages, SaysWhatItHasMadeAndCanBeRead) {
     EXPECT_EQ(samples, report["samples"]);
     EXPECT_FALSE(fs::exists(folder / "a.ovl.parts"));
     expect_done(run({"baked", "info", folder / "a.ovl"}));
+}
+
+TEST(BakeWangImages, AreVerifiedByThemselvesAndTold) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "a.ovl")));
+    Ran ran = run({"baked", "verify", folder / "a.ovl", "--json"});
+    expect_done(ran);
+    nlohmann::json proof = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(proof["holds"], true);
+    ran = run({"baked", "info", folder / "a.ovl", "--json"});
+    expect_done(ran);
+    nlohmann::json info = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(info["textures"]["side_px"], 4);
+    EXPECT_GT(proof["textures"], 0);
+    EXPECT_EQ(info["textures"]["count"], proof["textures"]);
+    EXPECT_EQ(info["images"]["images"], proof["images"]);
+    EXPECT_GT(info["textures"]["opacity_mean"], 0.05);
+    expect_done(run({"baked", "info", folder / "a.ovl"}));
+    expect_refusal(run({"baked", "verify", folder / "a.ovl", "--source", folder / "bush.obj"}), 2, "baked verify",
+                   {"is verified by itself"});
+    std::string bytes = text_of_file(folder / "a.ovl");
+    bytes[bytes.size() / 2] = char(bytes[bytes.size() / 2] ^ 1);
+    write_text(folder / "b.ovl", bytes);
+    EXPECT_EQ(run({"baked", "verify", folder / "b.ovl"}).exit, 3);
 }
 
 TEST(BakeWangImages, WritesSameBytesWithAnyThreadCount) {
@@ -246,6 +273,8 @@ TEST(BakeWangImages, RefusesOptionsThatMakeNoSenseInOneLine) {
     expect(2, {"--farthest-m 30", "--nearest-m 40"}, {"--nearest-m", "40"});
     expect(2, {"--level-ratio", "nan"}, {"--level-ratio", "nan"});
     expect(2, {"--unseen"}, {"--unseen", "0"});
+    for (const char* side : {"0", "33", "512", "-1", "x", "32x"})
+        expect(2, {std::string("--textures ") + side, "1, 2, 4 .. 256"}, {"--textures", side});
 }
 
 TEST(BakeWangImages, RefusesTilesThatAreTooNear) {

@@ -1,6 +1,7 @@
 #include "tools/bake_wang_ldi/images.h"
 
 #include <CLI/CLI.hpp>
+#include <bit>
 #include <charconv>
 #include <cmath>
 
@@ -53,6 +54,9 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
         app, "--ray-memory", args.ray_memory_bytes,
         "A tile and its neighbours that take more for rays are kept as instances: slower, and the last bit of "
         "a sample may differ (default: 4G)");
+    app.add_option("--textures", args.textures,
+                   "Texels a side of each tile's directional textures, for beyond the farthest images: 1, 2, 4 .. 256, or none")
+        ->capture_default_str();
     app.add_flag("--border-images", args.has_border_images, "Besides, images of each tile alone, for where the planting ends");
     app.add_option("--judge", args.judged_views, "Warp each image for so many views and say how it differs from what rays see")
         ->check(CLI::Range(0u, 10000u));
@@ -113,6 +117,15 @@ bool parse_part(const std::string& text, uint64_t& part, uint64_t& count) {
     return true;
 }
 
+// "32", "none".
+bool parse_texture_side(const std::string& text, uint32_t& side_px) {
+    side_px = 0;
+    if (text == "none") return true;
+    const char* end = text.data() + text.size();
+    auto read = std::from_chars(text.data(), end, side_px);
+    return read.ec == std::errc() && read.ptr == end && std::has_single_bit(side_px) && side_px <= wang_ldi::kMostTextureSide_px;
+}
+
 }  // namespace
 
 void add_image_options(CLI::App& app, ImageArgs& args) {
@@ -129,6 +142,9 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
         return bad_command("--farthest-m {}: is nearer than --nearest-m {}", args.farthest_m, args.nearest_m);
     if (!args.part.empty() && !parse_part(args.part, bake.part, bake.part_count))
         return bad_command("--part {}: K/N is wanted, K from 1 to N", args.part);
+    if (!parse_texture_side(args.textures, bake.textures.side_px))
+        return bad_command("--textures {}: 1, 2, 4 .. {} texels a side are wanted, or none", args.textures,
+                           wang_ldi::kMostTextureSide_px);
     double focal_px = args.height_px / (2 * std::tan(args.fov_y_deg * M_PI / 360));
     bake.levels.set.cell = {args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m, focal_px, args.error_px};
     bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
@@ -161,6 +177,7 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     add("eyes", fmt::format("{} to {} m up, {} to {} m away", args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m));
     add("level-ratio", fmt::format("{}", args.level_ratio)), add("direction-px", fmt::format("{}", args.direction_px));
     add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
+    add("textures", args.textures);
     if (args.light == "baked")
         add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
                                args.sun_elevation_deg, args.sun_rays, args.sky_rays));

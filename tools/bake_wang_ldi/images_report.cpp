@@ -59,6 +59,33 @@ Total total_of(const wang_ldi::ImageReport& report) {
     return total;
 }
 
+ordered_json textures_json(const wang_ldi::ImageReport& report) {
+    uint64_t rays = 0, hits = 0, pixels = 0;
+    double unseen = 0, unseen_most = 0, error = 0, error_most = 0, coverage = 0, drawn = 0, off = 0;
+    for (const wang_ldi::TextureRow& row : report.textures) {
+        rays += row.rays, hits += row.hits, unseen += row.unseen_share, error += row.standard_error;
+        unseen_most = std::max(unseen_most, row.unseen_share), error_most = std::max(error_most, row.standard_error);
+        auto of = double(row.judgement.pixels);
+        pixels += row.judgement.pixels, coverage += of * row.judgement.coverage;
+        drawn += of * row.judgement.drawn_coverage, off += of * row.judgement.mean_error;
+    }
+    auto count = double(std::max<size_t>(1, report.textures.size()));
+    ordered_json json{{"count", report.textures.size()},
+                      {"side_px", report.texture_side_px},
+                      {"rays", rays},
+                      {"hits", hits},
+                      {"unseen_share_mean", unseen / count},
+                      {"unseen_share_most", unseen_most},
+                      {"standard_error_mean", error / count},
+                      {"standard_error_most", error_most}};
+    if (pixels > 0)
+        json["judged"] = {{"pixels", pixels},
+                          {"coverage", coverage / double(pixels)},
+                          {"drawn_coverage", drawn / double(pixels)},
+                          {"mean_luma_error", off / double(pixels)}};
+    return json;
+}
+
 }  // namespace
 
 std::string images_json(const wang_ldi::ImageReport& report) {
@@ -68,6 +95,7 @@ std::string images_json(const wang_ldi::ImageReport& report) {
     json["distances_m"] = {report.set.cell.nearest_m, report.set.cell.farthest_m};
     json["images_above_goal"] = report.above_goal;
     json["taken_from_parts"] = report.taken_from_parts, json["baked"] = report.made, json["seconds"] = report.seconds;
+    if (report.texture_side_px > 0) json["textures"] = textures_json(report);
     for (uint32_t k = 0; k < report.set.levels.size(); ++k) {
         const wang_ldi::Level& level = report.set.levels[k];
         Total of_level;
@@ -113,6 +141,11 @@ void say_images(const wang_ldi::ImageReport& report, const command::Common& comm
         command::note(common,
                       fmt::format("warped: holes in {:.2f} % of pixels, {:.2f} % among foreign neighbours; luma off by {:.3f}",
                                   share(total.own), share(total.foreign), total.own.mean_error));
+    }
+    if (report.texture_side_px > 0) {
+        ordered_json textures = textures_json(report);
+        command::note(common, fmt::format("{} textures of {} texels a side; {} rays", report.textures.size(),
+                                          report.texture_side_px, with_commas(textures["rays"].get<uint64_t>())));
     }
     if (report.taken_from_parts > 0)
         command::detail(common, fmt::format("{} images were done before", with_commas(report.taken_from_parts)));

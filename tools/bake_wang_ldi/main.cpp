@@ -40,7 +40,7 @@ Result<uint64_t> write_file(const Args& args, const bake_wang_ldi::GroundDone& d
     if (args.is_part()) return 0;
     if (auto added = writer->add_provenance(*provenance); !added) return tl::unexpected(added.error());
     auto bytes = writer->commit();
-    if (bytes) report.parts.remove_all(report.rows.size());
+    if (bytes) report.parts.remove_all(report.part_count);
     return bytes;
 }
 

@@ -109,7 +109,8 @@ void print_mesh(const ordered_json& m) {
 }
 
 void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain,
-                const std::optional<wang_ldi::PlantedTiles>& ground, const std::optional<wang_ldi::ImageReader>& images) {
+                const std::optional<wang_ldi::PlantedTiles>& ground, const std::optional<wang_ldi::ImageReader>& images,
+                const std::optional<wang_ldi::TextureSet>& textures) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
@@ -138,6 +139,7 @@ void print_text(const ordered_json& json, const std::optional<discrete::Chain>& 
     if (chain) print_chain(*chain);
     if (ground) print_ground(*ground);
     if (images) print_images(*images);
+    if (textures) print_textures(*textures);
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
@@ -188,6 +190,7 @@ int info(const InfoArgs& args, const command::Common& common) {
     }
     std::optional<wang_ldi::PlantedTiles> ground;
     std::optional<wang_ldi::ImageReader> images;
+    std::optional<wang_ldi::TextureSet> textures;
     if (file->kind() == wang_ldi::kKind) {
         auto read = wang_ldi::read(*file);
         if (!read) return command::fail("baked info", read.error());
@@ -198,6 +201,9 @@ int info(const InfoArgs& args, const command::Common& common) {
             if (!opened) return command::fail("baked info", opened.error());
             json["images"] = ordered_json::parse(images_json(*opened));
             images = std::move(*opened);
+            auto far = wang_ldi::has_textures(*file) ? wang_ldi::read_textures(*file, images->set()) : wang_ldi::TextureSet();
+            if (!far) return command::fail("baked info", far.error());
+            if (far->texture_count() > 0) json["textures"] = ordered_json::parse(textures_json(*far)), textures = std::move(*far);
         }
     }
     if (!args.sheet.empty()) {
@@ -209,7 +215,7 @@ int info(const InfoArgs& args, const command::Common& common) {
     if (common.json)
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else
-        print_text(json, chain, ground, images);
+        print_text(json, chain, ground, images, textures);
     return int(Exit::done);
 }
 

@@ -48,7 +48,40 @@ ordered_json total_json(const Total& total) {
             {"unseen_share_most", total.unseen_most}};
 }
 
+struct TextureTotals {
+    double unseen_mean = 0, error_mean = 0, opacity_mean = 0;  // opacity: of the finest texels
+};
+TextureTotals totals_of(const wang_ldi::TextureSet& set) {
+    TextureTotals totals;
+    auto count = double(std::max<uint64_t>(1, set.texture_count()));
+    size_t texels = size_t(set.side_px) * set.side_px;
+    for (const wang_ldi::DirectionalTexture& texture : set.textures) {
+        totals.unseen_mean += double(texture.unseen_share) / count, totals.error_mean += double(texture.standard_error) / count;
+        for (size_t t = 0; t < texels; ++t) totals.opacity_mean += texture.colours[t][3] / 255.0 / double(texels) / count;
+    }
+    return totals;
+}
+
 }  // namespace
+
+std::string textures_json(const wang_ldi::TextureSet& set) {
+    TextureTotals totals = totals_of(set);
+    return ordered_json{{"count", set.texture_count()},
+                        {"side_px", set.side_px},
+                        {"nearest_m", set.nearest_m},
+                        {"farthest_m", set.farthest_m},
+                        {"unseen_share_mean", totals.unseen_mean},
+                        {"standard_error_mean", totals.error_mean},
+                        {"opacity_mean", totals.opacity_mean}}
+        .dump();
+}
+
+void print_textures(const wang_ldi::TextureSet& set) {
+    TextureTotals totals = totals_of(set);
+    fmt::print("textures: {} of {} texels a side for eyes {:.4g} to {:.4g} m away, opacity {:.2f} on average, {:.2g} % unseen\n",
+               with_commas(set.texture_count()), set.side_px, set.nearest_m, set.farthest_m, totals.opacity_mean,
+               100 * totals.unseen_mean);
+}
 
 std::string images_json(const wang_ldi::ImageReader& images) {
     const ImageSet& set = images.set();

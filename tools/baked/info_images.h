@@ -7,11 +7,15 @@
 #include "formats/image.h"
 #include "formats/wang_ground.h"
 #include "formats/wang_ldi.h"
+#include "formats/wang_textures.h"
 
 namespace overlook::baked {
 
 std::string images_json(const wang_ldi::ImageReader& images);
 void print_images(const wang_ldi::ImageReader& images);
+
+std::string textures_json(const wang_ldi::TextureSet& set);
+void print_textures(const wang_ldi::TextureSet& set);
 
 struct NamedPicture {
     std::string name;  // "tiles-above.png"

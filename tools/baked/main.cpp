@@ -22,12 +22,13 @@ int main(int argc, char** argv) {
 
     CLI::App* verify_verb = app.add_subcommand(
         "verify",
-        "Re-proves a file's promises against the elevation model or the mesh that it was baked from; exit 1 if one is broken");
+        "Re-proves a file's promises against the elevation model or the mesh that it was baked from, or those of ground of Wang "
+        "tiles by itself; exit 1 if one is broken");
     verify_verb->add_option("FILE", verify.file, "A baked file")->required();
-    verify_verb
-        ->add_option("--source", verify.sources,
-                     "The elevation model or the mesh it was baked from; of levels made by hand all, finest first")
-        ->required();
+    verify_verb->add_option(
+        "--source", verify.sources,
+        "The elevation model or the mesh it was baked from; of levels made by hand all, finest first; of ground "
+        "of Wang tiles none");
     verify_verb
         ->add_option("--error-m", verify.error_m,
                      "Of a terrain: tolerances in metres at which a whole cut is checked; may be repeated (default 100, 50, 20, "

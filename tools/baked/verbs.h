@@ -16,7 +16,7 @@ struct InfoArgs {
 };
 struct VerifyArgs {
     std::string file;
-    std::vector<std::string> sources;  // one; of levels made by hand, one for each
+    std::vector<std::string> sources;  // one; of levels made by hand, one for each; of ground none
     std::vector<double> error_m;       // terrain: tolerances of whole cuts to check; empty = 100, 50, 20, 5, 1
     uint32_t cuts = 200;               // mesh: how many random cuts to check
 };
@@ -44,6 +44,7 @@ int export_cut(const ExportArgs& args, const command::Common& common);
 // The same for one kind of file, which is open.
 int verify_terrain(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
 int verify_mesh(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
+int verify_ground(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
 int verify_discrete(const VerifyArgs& args, const container::Reader& file, const command::Common& common);
 int export_discrete(const ExportArgs& args, const container::Reader& file, const command::Common& common);
 int export_terrain(const ExportArgs& args, const container::Reader& file, const command::Common& common);

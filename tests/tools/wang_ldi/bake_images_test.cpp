@@ -19,6 +19,7 @@ ImageBake small_bake() {
     bake.levels.direction_px = 60, bake.levels.level_ratio = 2;
     bake.sampling.rays_per_eye = 4096, bake.sampling.unseen_goal = 0.05;
     bake.light.sky_rays = 16, bake.light.sun_rays = 4;
+    bake.textures.side_px = 4, bake.textures.error_goal = 0.1, bake.textures.rays_per_eye = 1024;
     return bake;
 }
 
@@ -94,6 +95,30 @@ TEST(ImageBakes, SayHowManyImagesHaveMoreUnseenThanWasAsked) {
     EXPECT_EQ(fixed->above_goal, 0u);
 }
 
+TEST(ImageBakes, HaveTexturesUnlessTheyAreNotWanted) {
+    ScratchFolder folder;
+    ImageBake bake = small_bake();
+    bake.has_border_images = true, bake.judged_views = 2;
+    auto report = baked(folder / "a.ovl", bake);
+    ASSERT_TRUE(report) << report.error().message;
+    auto file = container::Reader::open(folder / "a.ovl");
+    auto textures = read_textures(*file, report->set);
+    ASSERT_TRUE(textures) << textures.error().message;
+    EXPECT_EQ(textures->side_px, 4u);
+    EXPECT_EQ(textures->nearest_m, report->set.cell.farthest_m);
+    ASSERT_EQ(textures->textures.size(), report->textures.size());
+    for (size_t i = 0; i < report->textures.size(); ++i) {
+        const TextureRow& row = report->textures[i];
+        EXPECT_EQ(double(textures->textures[i].unseen_share), row.unseen_share);
+        EXPECT_LE(row.unseen_share, 0.02);
+        EXPECT_GT(row.hits, 100u);
+        EXPECT_GT(row.judgement.pixels, 0u);
+    }
+    bake.textures.side_px = 0;
+    ASSERT_TRUE(baked(folder / "b.ovl", bake));
+    EXPECT_FALSE(has_textures(*container::Reader::open(folder / "b.ovl")));
+}
+
 TEST(ImageBakes, GoOnWhereTheyWereStopped) {
     ScratchFolder folder;
     ImageBake bake = small_bake();
@@ -108,7 +133,7 @@ TEST(ImageBakes, GoOnWhereTheyWereStopped) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(bake.parts_folder)) names.push_back(entry.path());
     std::sort(names.begin(), names.end());
-    ASSERT_EQ(names.size(), whole->rows.size());
+    ASSERT_EQ(names.size(), whole->part_count);
     std::filesystem::remove(names[0]);
     std::filesystem::resize_file(names[1], 100);
     std::string damaged = text_of_file(names[2]);
@@ -124,7 +149,7 @@ TEST(ImageBakes, GoOnWhereTheyWereStopped) {
     auto third = baked(folder / "b.ovl", other, 2);
     ASSERT_TRUE(third);
     EXPECT_EQ(third->taken_from_parts, 0u);
-    second->parts.remove_all(second->rows.size()), third->parts.remove_all(third->rows.size());
+    second->parts.remove_all(second->part_count), third->parts.remove_all(third->part_count);
     EXPECT_FALSE(std::filesystem::exists(bake.parts_folder));
 }
 

@@ -7,11 +7,11 @@
 #include <new>
 #include <thread>
 
-#include "formats/container_rules.h"
 #include "formats/parallel.h"
-#include "formats/wang_ldi_layout.h"
 #include "runtime/wang_ldi/random.h"
 #include "tools/bake/wang_ldi/assemble.h"
+#include "tools/bake/wang_ldi/bake_key.h"
+#include "tools/bake/wang_ldi/bake_textures.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -21,62 +21,7 @@ constexpr const char* kNoMemory =
     "threads";
 constexpr uint64_t kPaperRays = 2'500'000;
 constexpr uint32_t kPaperEyes = 64;
-constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44;
-
-// A hash of values and rows of them, as they lie in memory: for a key that never leaves this machine.
-class Key {
-  public:
-    template <class T>
-    void add(const T& value) {
-        static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
-        add_bytes(std::as_bytes(std::span(&value, 1)));
-    }
-    template <class T>
-    void add_row(const std::vector<T>& row) {
-        add(uint64_t(row.size()));
-        add_bytes(std::as_bytes(std::span(row)));
-    }
-    uint64_t value() const { return value_; }
-
-  private:
-    void add_bytes(std::span<const std::byte> bytes) { value_ = mixed(value_ ^ container::checksum_of(bytes)); }
-    uint64_t value_ = 1;
-};
-
-void add_models(const Models& models, Key& key) {
-    for (size_t m = 0; m < models.meshes.size(); ++m) {
-        const rays::Mesh& mesh = models.meshes[m];
-        const Skin& skin = models.skins[m];
-        key.add_row(mesh.positions_m), key.add_row(mesh.triangles), key.add_row(mesh.uvs), key.add_row(mesh.masks_of);
-        for (const rays::Mask& mask : mesh.masks) key.add(mask.width_px), key.add(mask.least), key.add_row(mask.opacity);
-        key.add_row(skin.normals), key.add_row(skin.colours), key.add_row(skin.looks_of), key.add_row(skin.looks);
-        for (const Texture& texture : skin.textures) key.add(texture.width_px), key.add_row(texture.pixels);
-    }
-}
-
-void add_planting(const TileSet& tiles, const Planting& planting, Key& key) {
-    key.add_row(tiles.tiles), key.add(planting.tile_size_m);
-    for (const auto& objects : planting.tiles)
-        for (const Planted& object : objects) {
-            key.add(object.model), key.add(object.x_m), key.add(object.y_m), key.add(object.turn_rad), key.add(object.scale);
-            key.add(uint32_t(object.owner));
-        }
-}
-
-uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& models, const ImageBake& bake,
-                const ImageSet& set) {
-    Key key;
-    add_models(models, key), add_planting(tiles, planting, key);
-    key.add_row(bytes_of_head(set));
-    const SampleOptions& sampling = bake.sampling;
-    key.add(sampling.unseen_goal), key.add(sampling.fixed_rays), key.add(sampling.most_rays);
-    key.add(uint64_t(sampling.least_eyes) << 32 | sampling.rays_per_eye);
-    for (const glm::vec3& v : {bake.light.to_sun, bake.light.sun, bake.light.sky, bake.light.ground})
-        key.add(v.x), key.add(v.y), key.add(v.z);
-    key.add(bake.light.sun_radius_deg), key.add(uint64_t(bake.light.sun_rays) << 32 | bake.light.sky_rays);
-    key.add(uint64_t(bake.neighbourhoods) << 32 | bake.judged_views), key.add(bake.memory_bytes), key.add(bake.seed);
-    return key.value();
-}
+constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44, kTextureStream = 45;
 
 // The images of one tile in one context: what is done by several threads.
 class TileBake {
@@ -84,6 +29,7 @@ class TileBake {
     TileBake(const Models& models, const ImageBake& bake, const ImageSet& set) : models_(models), bake_(bake), set_(set) {}
     // foreign: of other neighbours, to be judged among; or null.
     Result<Shard> image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const;
+    Shard texture(std::span<const Stage> stages, const TextureSet& set, uint64_t index) const;
 
   private:
     std::vector<glm::vec3> colours_of(std::span<const Stage> stages, const Sampled& sampled, uint64_t seed) const;
@@ -117,20 +63,50 @@ Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreig
     return shard;
 }
 
+Shard TileBake::texture(std::span<const Stage> stages, const TextureSet& set, uint64_t index) const {
+    TextureOptions options = bake_.textures;
+    options.seed = hash_of(bake_.seed, kTextureStream, int64_t(index), 0);
+    auto direction = uint32_t(index % set.direction_count);
+    TextureSampled all = texture_of(models_, stages, set, direction, bake_.light, options);
+    TextureJudgement judgement;
+    if (bake_.judged_views > 0) {
+        Judging judging;
+        judging.views = bake_.judged_views, judging.seed = hash_of(bake_.seed, kJudgeStream, int64_t(index), 1);
+        judgement = judged_texture(models_, stages[0], set, all.texture, direction, set_.cell.focal_px, bake_.light, judging);
+    }
+    return shard_of_texture(all, judgement);
+}
+
 class SetBake {
   public:
     SetBake(const TileSet& tiles, const Planting& planting, const Models& models, const ImageBake& bake, const ImageSet& set)
-        : tiles_(tiles), planting_(planting), models_(models), bake_(bake), set_(set), one_(models, bake, set) {}
+        : tiles_(tiles),
+          planting_(planting),
+          models_(models),
+          bake_(bake),
+          set_(set),
+          one_(models, bake, set),
+          textures_(texture_set_of(set, bake.textures.side_px)) {}
     Result<ImageReport> run(container::Writer& writer, const std::function<void(double)>& progress);
 
   private:
     // Those to sample from and, where images are judged, one more, of other neighbours.
     Result<std::vector<Stage>> stages_of(uint32_t context, uint32_t tile) const;
     size_t sampled_stages(uint32_t context) const { return context == 1 ? 1 : std::max(1u, bake_.neighbourhoods); }
-    // done: called by this thread with the share of the tile's images.
+    // Of a tile, first its images, then its textures. done: called by this thread with the share of them.
     Result<void> bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards, const std::function<void(double)>& done);
+    // index: of the images, or behind them of the textures.
+    Result<Shard> made(std::span<const Stage> stages, uint32_t context, uint64_t index) const;
     Result<void> bake_all(ImageWriter* images, const std::function<void(double)>& progress);
     void add_rows(uint64_t first, const std::vector<Shard>& shards);
+    Result<void> write_all(container::Writer& writer, const std::function<void(double)>& progress);
+    uint64_t images_of_tile() const { return set_.levels.size() * set_.direction_count; }
+    uint64_t textures_of_tile() const { return has_textures() ? set_.direction_count : 0; }
+    bool has_textures() const { return bake_.textures.side_px > 0; }
+    uint64_t index_of_job(uint64_t tile, uint64_t job) const {
+        if (job < images_of_tile()) return tile * images_of_tile() + job;
+        return set_.ldi_count() + tile * textures_of_tile() + job - images_of_tile();
+    }
 
     const TileSet& tiles_;
     const Planting& planting_;
@@ -138,6 +114,7 @@ class SetBake {
     const ImageBake& bake_;
     const ImageSet& set_;
     TileBake one_;
+    TextureSet textures_;
     Shards kept_;
     ImageReport report_;
 };
@@ -155,13 +132,20 @@ Result<std::vector<Stage>> SetBake::stages_of(uint32_t context, uint32_t tile) c
     return stages;
 }
 
+Result<Shard> SetBake::made(std::span<const Stage> stages, uint32_t context, uint64_t index) const {
+    size_t own = sampled_stages(context);
+    const Stage* foreign = stages.size() > own ? &stages.back() : nullptr;
+    if (index < set_.ldi_count()) return one_.image(stages.first(own), foreign, which_of(set_, index));
+    return one_.texture(stages.first(own), textures_, index - set_.ldi_count());
+}
+
 Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards,
                                 const std::function<void(double)>& done) {
-    uint64_t first = index_of(set_, {context, tile, 0, 0});
+    auto index_of = [&](uint64_t job) { return index_of_job(uint64_t(context) * set_.tile_count + tile, job); };
     std::vector<size_t> missing;
     for (size_t i = 0; i < shards.size(); ++i) {
-        if ((first + i) % bake_.part_count != bake_.part) continue;
-        if (auto kept = kept_.find(first + i))
+        if (index_of(i) % bake_.part_count != bake_.part) continue;
+        if (auto kept = kept_.find(index_of(i)))
             shards[i] = std::move(*kept), ++report_.taken_from_parts;
         else
             missing.push_back(i);
@@ -181,11 +165,9 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
             if (outcome) outcome = tl::unexpected(error);
         };
         try {
-            size_t own = sampled_stages(context);
-            const Stage* foreign = stages->size() > own ? &stages->back() : nullptr;
-            auto shard = one_.image(std::span(*stages).first(own), foreign, which_of(set_, first + missing[m]));
+            auto shard = made(*stages, context, index_of(missing[m]));
             if (!shard) return fail(shard.error());
-            if (auto kept = kept_.keep(first + missing[m], *shard); !kept) return fail(kept.error());
+            if (auto kept = kept_.keep(index_of(missing[m]), *shard); !kept) return fail(kept.error());
             shards[missing[m]] = std::move(*shard);
             size_t count = ++finished;
             if (std::this_thread::get_id() == caller) done(double(count) / double(missing.size()));
@@ -196,29 +178,43 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
     return outcome;
 }
 
-void SetBake::add_rows(uint64_t first, const std::vector<Shard>& shards) {
-    for (size_t i = 0; i < shards.size(); ++i) {
+void SetBake::add_rows(uint64_t tile, const std::vector<Shard>& shards) {
+    for (size_t i = 0; i < images_of_tile(); ++i) {
         const Shard& shard = shards[i];
         bool has_goal = bake_.sampling.fixed_rays == 0;
         report_.above_goal += has_goal && double(shard.packed.unseen_share) > bake_.sampling.unseen_goal;
-        report_.rows.push_back({which_of(set_, first + i), shard.packed.sample_count, shard.packed.bytes.size(), shard.rays,
-                                shard.hits, shard.eyes, double(shard.packed.unseen_share), shard.judgement, shard.foreign});
+        report_.rows.push_back({which_of(set_, index_of_job(tile, i)), shard.packed.sample_count, shard.packed.bytes.size(),
+                                shard.rays, shard.hits, shard.eyes, double(shard.packed.unseen_share), shard.judgement,
+                                shard.foreign});
+    }
+    for (size_t i = images_of_tile(); i < shards.size(); ++i) {
+        TextureRow row;
+        textures_.textures.push_back(texture_of_shard(shards[i], textures_, row));
+        report_.textures.push_back(row);
     }
 }
 
 Result<void> SetBake::bake_all(ImageWriter* images, const std::function<void(double)>& progress) {
-    uint64_t of_tile = set_.levels.size() * set_.direction_count, tiles = uint64_t(set_.context_count) * set_.tile_count;
+    uint64_t tiles = uint64_t(set_.context_count) * set_.tile_count;
     for (uint64_t t = 0; t < tiles; ++t) {
         auto done = [&](double share) { progress((double(t) + share) / double(tiles)); };
-        std::vector<Shard> shards(of_tile);
+        std::vector<Shard> shards(images_of_tile() + textures_of_tile());
         if (auto baked = bake_tile(uint32_t(t / set_.tile_count), uint32_t(t % set_.tile_count), shards, done); !baked)
             return baked;
         if (!images) continue;
-        for (const Shard& shard : shards)
-            if (auto added = images->add(shard.packed); !added) return added;
-        add_rows(t * of_tile, shards);
+        for (size_t i = 0; i < images_of_tile(); ++i)
+            if (auto added = images->add(shards[i].packed); !added) return added;
+        add_rows(t, shards);
     }
     return {};
+}
+
+Result<void> SetBake::write_all(container::Writer& writer, const std::function<void(double)>& progress) {
+    auto images = ImageWriter::begin(writer, set_);
+    if (!images) return tl::unexpected(images.error());
+    if (auto baked = bake_all(&*images, progress); !baked) return baked;
+    if (auto ended = images->end(); !ended || !has_textures()) return ended;
+    return write_textures(writer, set_, textures_);
 }
 
 Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<void(double)>& progress) {
@@ -226,14 +222,10 @@ Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<
     auto kept = Shards::in(bake_.parts_folder, key_of(tiles_, planting_, models_, bake_, set_));
     if (!kept) return tl::unexpected(kept.error());
     kept_ = std::move(*kept), report_.set = set_, report_.parts = kept_;
-    if (bake_.part_count > 1) {
-        if (auto baked = bake_all(nullptr, progress); !baked) return tl::unexpected(baked.error());
-    } else {
-        auto images = ImageWriter::begin(writer, set_);
-        if (!images) return tl::unexpected(images.error());
-        if (auto baked = bake_all(&*images, progress); !baked) return tl::unexpected(baked.error());
-        if (auto ended = images->end(); !ended) return tl::unexpected(ended.error());
-    }
+    report_.part_count = set_.ldi_count() + (has_textures() ? textures_.texture_count() : 0);
+    report_.texture_side_px = bake_.textures.side_px;
+    auto outcome = bake_.part_count > 1 ? bake_all(nullptr, progress) : write_all(writer, progress);
+    if (!outcome) return tl::unexpected(outcome.error());
     progress(1);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(report_);

@@ -10,12 +10,14 @@
 #include "tools/bake/wang_ldi/judge.h"
 #include "tools/bake/wang_ldi/levels.h"
 #include "tools/bake/wang_ldi/shards.h"
+#include "tools/bake/wang_ldi/textures.h"
 
 namespace overlook::wang_ldi {
 
 struct ImageBake {
     LevelOptions levels;  // the set's tile size, heights and counts are filled in from the planting
     SampleOptions sampling;
+    TextureOptions textures;
     Light light;
     uint32_t neighbourhoods = 1;                // that a tile is sampled among, in turn
     bool has_border_images = false;             // besides, each tile alone
@@ -24,7 +26,8 @@ struct ImageBake {
     uint64_t memory_bytes = uint64_t(4) << 30;  // for rays: beyond it, a tile and its neighbours are kept as instances
     uint64_t seed = 1;
     std::string parts_folder;  // of Shards; empty: nothing is kept
-    // Only images whose index leaves `part` when divided by part_count; others are not made, and no sections are written. For
+    // Only images and textures, counted one after the other, whose number leaves `part` when divided by part_count; others are
+    // not made, and no sections are written. For
     // several machines, which share the folder or bring its files together.
     uint64_t part = 0, part_count = 1;
 };
@@ -39,22 +42,31 @@ struct ImageRow {
     Judgement judgement;  // among the neighbours that the tile was sampled among
     Judgement foreign;    // among others
 };
+struct TextureRow {
+    uint64_t rays = 0, hits = 0, eyes = 0;
+    double unseen_share = 0, standard_error = 0;
+    TextureJudgement judgement;
+};
 struct ImageReport {
     ImageSet set;
-    std::vector<ImageRow> rows;     // in the order of index_of; none of a part
-    uint64_t made = 0;              // images that were baked anew
-    uint64_t taken_from_parts = 0;  // of rows
-    uint64_t above_goal = 0;  // of rows: those with more unseen than was asked for, after the most rays that are shot
+    std::vector<ImageRow> rows;        // in the order of index_of; none of a part
+    std::vector<TextureRow> textures;  // in the order of TextureSet::index_of; likewise
+    uint32_t texture_side_px = 0;
+    uint64_t made = 0;              // images and textures that were baked anew
+    uint64_t taken_from_parts = 0;  // those that were there
+    uint64_t above_goal = 0;        // of rows: those with more unseen than was asked for, after the most rays that are shot
     double seconds = 0;
-    Shards parts;  // to be removed (remove_all) when the file is committed
+    Shards parts;  // to be removed (remove_all(part_count)) when the file is committed
+    uint64_t part_count = 0;
 };
 
 // How low and how high anything stands on the tiles, at least 0.1 m apart.
 glm::dvec2 heights_of(const Models& models, const Planting& planting);
 
-// Adds the sections WLDS and WLDI (unless it is a part). planting.models are models.meshes, one by one. A pure function of all
-// but parts_folder, whatever the number of threads. `progress` is called with the share done, 0..1, from this thread. Fails as
-// leveled() and stage_of() do, with Exit::impossible if memory does not suffice, and as the writer does.
+// Adds the sections WLDS and WLDI, and WLDT if there are textures (unless it is a part). planting.models are models.meshes, one
+// by one. A pure function of all but parts_folder, whatever the number of threads. `progress` is called with the share done,
+// 0..1, from this thread. Fails as leveled() and stage_of() do, with Exit::impossible if memory does not suffice, and as the
+// writer does.
 Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles, const Planting& planting, const Models& models,
                                 const ImageBake& bake, const std::function<void(double)>& progress);
 

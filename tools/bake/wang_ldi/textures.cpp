@@ -1,0 +1,233 @@
+#include "tools/bake/wang_ldi/textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/wang_ldi/random.h"
+#include "tools/bake/wang_ldi/texture_walk.h"
+#include "tools/bake/wang_ldi/textures_opacity.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr uint64_t kEyeStream = 51, kHitStream = 53;
+constexpr uint32_t kLightRaysShare = 16;
+constexpr size_t kMostLines = 1 << 15;
+
+double luma_of(const glm::vec3& colour) {
+    return 0.2126 * double(colour.r) + 0.7152 * double(colour.g) + 0.0722 * double(colour.b);
+}
+
+// What is seen over a square.
+struct Sum {
+    uint64_t hits = 0;
+    glm::dvec3 colour{0}, normal{0};
+    double luma = 0, luma_squared = 0, height_m = 0, height_squared = 0;
+
+    void add(const Sum& other) {
+        hits += other.hits, colour += other.colour, normal += other.normal, luma += other.luma;
+        luma_squared += other.luma_squared, height_m += other.height_m, height_squared += other.height_squared;
+    }
+    double luma_variance_sum() const { return std::max(0.0, luma_squared - luma * luma / double(hits)); }
+};
+
+class TextureSampler {
+  public:
+    TextureSampler(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
+                   const Light& light, const TextureOptions& options);
+    TextureSampled run();
+
+  private:
+    bool is_enough() const;
+    double unseen_share() const { return hits_ == 0 ? 1 : double(met_once_) / double(hits_); }
+    double standard_error() const;
+    void see(const Stage& stage);
+    void add_hit(const Stage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at);
+    void sum_up();
+    void encode(DirectionalTexture& texture) const;
+    void fill_unseen(DirectionalTexture& texture) const;
+    void add_line(const rays::Ray& ray, const rays::Hit& hit);
+    void set_opacity(DirectionalTexture& texture) const;
+
+    const Models& models_;
+    std::span<const Stage> stages_;
+    const TextureSet& set_;
+    Wedge wedge_;
+    Light light_;
+    TextureOptions options_;
+    std::vector<Sum> sums_;    // of all pictures' texels
+    std::vector<Line> lines_;  // the first kMostLines that reach the tile
+    std::vector<rays::Hit> found_;
+    Eye eye_;
+    uint64_t reaching_ = 0, rays_ = 0, hits_ = 0, met_once_ = 0, eyes_ = 0;
+};
+
+TextureSampler::TextureSampler(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
+                               const Light& light, const TextureOptions& options)
+    : models_(models),
+      stages_(stages),
+      set_(set),
+      wedge_(far_wedge_of(set, direction)),
+      light_(light),
+      options_(options),
+      sums_(texture_texels(set.side_px)) {
+    light_.sun_rays = std::max(1u, light.sun_rays / kLightRaysShare);
+    light_.sky_rays = std::max(1u, light.sky_rays / kLightRaysShare);
+}
+
+void TextureSampler::add_hit(const Stage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at) {
+    double per_m = set_.side_px / set_.tile_m;
+    auto along = [&](double place) { return std::min(size_t(place * per_m), size_t(set_.side_px - 1)); };
+    size_t texel = along(at.y) * set_.side_px + along(at.x);
+    Point point = point_of(models_, stage.copies, hit, ray.along);
+    glm::vec3 colour =
+        set_.has_normals ? point.albedo : lit(stage.scene, point, light_, hash_of(options_.seed, kHitStream, int64_t(hits_), 0));
+    Sum& sum = sums_[texel];
+    double luma = luma_of(colour), height_m = at.z - set_.low_m;
+    ++hits_, ++sum.hits;
+    if (sum.hits == 1) ++met_once_;
+    if (sum.hits == 2) --met_once_;
+    sum.colour += glm::dvec3(colour), sum.normal += glm::dvec3(point.normal), sum.luma += luma, sum.luma_squared += luma * luma;
+    sum.height_m += height_m, sum.height_squared += height_m * height_m;
+}
+
+void TextureSampler::see(const Stage& stage) {
+    set_eye(wedge_, hash_of(options_.seed, kEyeStream, 0, 0), eyes_, options_.rays_per_eye, eye_);
+    found_.resize(eye_.rays.size());
+    stage.scene.first_hits(eye_.rays, found_);
+    for (size_t i = 0; i < found_.size(); ++i) {
+        const rays::Ray& ray = eye_.rays[i];
+        add_line(ray, found_[i]);
+        if (found_[i].copy == rays::kNone) continue;
+        glm::dvec3 at = glm::dvec3(ray.from_m) + double(found_[i].distance) * glm::dvec3(ray.along);
+        if (at.x < 0 || at.y < 0 || at.x >= set_.tile_m || at.y >= set_.tile_m) continue;
+        add_hit(stage, ray, found_[i], at);
+    }
+    rays_ += eye_.rays.size(), ++eyes_;
+}
+
+// A sight line reaches the tile if nothing stands before it.
+void TextureSampler::add_line(const rays::Ray& ray, const rays::Hit& hit) {
+    glm::dvec2 over = over_tile(glm::dvec3(ray.from_m), glm::dvec3(ray.along), set_.tile_m);
+    if (over.x >= over.y || (hit.copy != rays::kNone && double(hit.distance) < over.x)) return;
+    ++reaching_;
+    if (lines_.size() < kMostLines) lines_.push_back({ray.from_m, ray.along});
+}
+
+// Of the finest texels' colours, root mean square over hits; a texel hit once is taken to vary as the others do together.
+double TextureSampler::standard_error() const {
+    double within = 0, of_means = 0;
+    uint64_t freedom = 0, single = 0;
+    for (size_t t = 0; t < size_t(set_.side_px) * set_.side_px; ++t) {
+        uint64_t hits = sums_[t].hits;
+        if (hits == 0) continue;
+        single += hits == 1, freedom += hits - 1;
+        double variance_sum = sums_[t].luma_variance_sum();
+        within += variance_sum;
+        if (hits > 1) of_means += variance_sum / double(hits - 1);
+    }
+    if (freedom == 0) return 1;
+    return std::sqrt((of_means + double(single) * within / double(freedom)) / double(hits_));
+}
+
+bool TextureSampler::is_enough() const {
+    if (rays_ >= options_.most_rays) return true;
+    if (hits_ == 0) return eyes_ >= 4 * uint64_t(options_.least_eyes);
+    if (eyes_ < options_.least_eyes || unseen_share() > options_.unseen_goal) return false;
+    double luma = 0;
+    for (size_t t = 0; t < size_t(set_.side_px) * set_.side_px; ++t) luma += sums_[t].luma;
+    return standard_error() * double(hits_) <= options_.error_goal * luma;
+}
+
+// Coarser pictures from finer ones: sums, so nothing is rounded between.
+void TextureSampler::sum_up() {
+    for (uint32_t level = 1; level < texture_levels(set_.side_px); ++level) {
+        size_t fine = texture_level_at(set_.side_px, level - 1), at = texture_level_at(set_.side_px, level);
+        uint32_t side = set_.side_px >> level;
+        for (uint32_t row = 0; row < 2 * side; ++row)
+            for (uint32_t column = 0; column < 2 * side; ++column)
+                sums_[at + size_t(row / 2) * side + column / 2].add(sums_[fine + size_t(row) * 2 * side + column]);
+    }
+}
+
+void TextureSampler::encode(DirectionalTexture& texture) const {
+    double step_m = (set_.high_m - set_.low_m) / 255;
+    auto code = [](double value, double least) { return uint8_t(std::clamp(std::round(value), least, 255.0)); };
+    for (const Sum& sum : sums_) {
+        texture.colours.push_back({}), texture.heights.push_back({});
+        if (set_.has_normals) texture.normals.push_back({});
+        if (sum.hits == 0) continue;
+        auto hits = double(sum.hits);
+        for (int c = 0; c < 3; ++c) texture.colours.back()[size_t(c)] = srgb_from_linear(float(sum.colour[c] / hits));
+        double mean_m = sum.height_m / hits, variance = std::max(0.0, sum.height_squared / hits - mean_m * mean_m);
+        texture.heights.back() = {code(mean_m / step_m, 0), code(std::sqrt(3 * variance) / step_m, 1)};
+        for (int axis = 0; axis < 3 && set_.has_normals; ++axis)
+            texture.normals.back()[size_t(axis)] = int8_t(std::lround(127 * std::clamp(sum.normal[axis] / hits, -1.0, 1.0)));
+    }
+}
+
+// From the coarsest down.
+void TextureSampler::fill_unseen(DirectionalTexture& texture) const {
+    for (uint32_t level = texture_levels(set_.side_px) - 1; level-- > 0;) {
+        size_t at = texture_level_at(set_.side_px, level), coarse = texture_level_at(set_.side_px, level + 1);
+        uint32_t side = set_.side_px >> level;
+        for (uint32_t t = 0; t < side * side; ++t) {
+            if (sums_[at + t].hits > 0) continue;
+            size_t from = coarse + size_t(t / side / 2) * (side / 2) + t % side / 2;
+            texture.colours[at + t] = texture.colours[from], texture.colours[at + t][3] = 0;
+            texture.heights[at + t] = texture.heights[from];
+            if (set_.has_normals) texture.normals[at + t] = texture.normals[from];
+        }
+    }
+}
+
+void TextureSampler::set_opacity(DirectionalTexture& texture) const {
+    std::vector<double> shown(sums_.size());
+    for (size_t t = 0; t < sums_.size(); ++t) shown[t] = double(sums_[t].hits) / double(reaching_);
+    choose_opacity(set_, lines_, shown, texture);
+}
+
+TextureSampled TextureSampler::run() {
+    while (!is_enough()) see(stages_[eyes_ % stages_.size()]);
+    TextureSampled made;
+    made.texture.unseen_share = hits_ == 0 ? 0 : float(unseen_share());
+    made.texture.standard_error = hits_ == 0 ? 0 : float(standard_error());
+    sum_up(), encode(made.texture);
+    if (hits_ > 0) set_opacity(made.texture);
+    fill_unseen(made.texture);
+    made.rays = rays_, made.hits = hits_, made.eyes = eyes_;
+    return made;
+}
+
+}  // namespace
+
+TextureSet texture_set_of(const ImageSet& images, uint32_t side_px) {
+    TextureSet set;
+    set.side_px = side_px, set.tile_m = images.tile_m, set.low_m = images.low_m, set.high_m = images.high_m;
+    set.nearest_m = images.cell.farthest_m, set.farthest_m = kFarTimes * images.cell.farthest_m;
+    set.eye_low_m = images.cell.eye_low_m, set.eye_high_m = images.cell.eye_high_m;
+    set.tile_count = images.tile_count, set.direction_count = images.direction_count;
+    set.context_count = images.context_count, set.has_normals = images.has_normals;
+    return set;
+}
+
+Wedge far_wedge_of(const TextureSet& set, uint32_t direction) {
+    Wedge wedge;
+    wedge.tile_m = set.tile_m, wedge.low_m = set.low_m, wedge.high_m = set.high_m, wedge.side_px = set.side_px;
+    wedge.nearest_m = set.nearest_m, wedge.farthest_m = set.farthest_m;
+    wedge.eye_low_m = set.eye_low_m, wedge.eye_high_m = set.eye_high_m;
+    wedge.heading_rad = 2 * M_PI * direction / set.direction_count, wedge.half_width_rad = M_PI / set.direction_count;
+    return wedge;
+}
+
+Box box_of(const TextureSet& set, const DirectionalTexture& texture, size_t texel) {
+    double middle_m = set.height_m(texture.heights[texel][0]), half_m = set.half_height_m(texture.heights[texel][1]);
+    return {middle_m - half_m, middle_m + half_m};
+}
+
+TextureSampled texture_of(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
+                          const Light& light, const TextureOptions& options) {
+    return TextureSampler(models, stages, set, direction, light, options).run();
+}
+
+}  // namespace overlook::wang_ldi

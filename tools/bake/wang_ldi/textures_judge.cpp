@@ -1,0 +1,134 @@
+// A texture's boxes drawn over each other, beside what rays say.
+#include <algorithm>
+#include <cmath>
+
+#include "formats/srgb.h"
+#include "runtime/wang_ldi/random.h"
+#include "tools/bake/wang_ldi/texture_walk.h"
+#include "tools/bake/wang_ldi/textures.h"
+
+namespace overlook::wang_ldi {
+namespace {
+
+constexpr uint64_t kViewStream = 61, kTruthStream = 62;
+constexpr double kGrey = 0.2;  // linear, behind the tile
+constexpr uint32_t kSide = 4;  // sight lines along a pixel's side
+
+// Of sight lines, linear.
+struct Light3 {
+    glm::dvec3 colour{0};
+    double coverage = 0;
+};
+
+// Front to back along a sight line, until it is covered.
+Light3 drawn_along(const TextureSet& set, const DirectionalTexture& texture, const rays::Ray& ray, const glm::dvec2& over) {
+    Light3 seen;
+    glm::dvec3 from(ray.from_m), along(ray.along);
+    walk_texels(from, along, set.tile_m, set.side_px, over.x, over.y, [&](uint32_t t, double begin, double end) {
+        Box box = box_of(set, texture, t);
+        double a = from.z + begin * along.z, b = from.z + end * along.z;
+        if (texture.colours[t][3] == 0 || std::max(a, b) < box.low_m || std::min(a, b) > box.high_m) return true;
+        double share = (1 - seen.coverage) * texture.colours[t][3] / 255;
+        for (int c = 0; c < 3; ++c) seen.colour[c] += share * double(linear_from_srgb(texture.colours[t][size_t(c)]));
+        seen.coverage += share;
+        return seen.coverage < 0.999;
+    });
+    return seen;
+}
+
+struct Pixel {
+    Light3 truth, drawn;
+    uint32_t lines = 0;
+
+    double error() const {
+        auto luma = [&](const Light3& sum) {
+            glm::dvec3 colour = (sum.colour + (lines - sum.coverage) * glm::dvec3(kGrey)) / double(lines);
+            return overlook::srgb_from_linear(std::clamp(0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b, 0.0, 1.0));
+        };
+        return std::abs(luma(truth) - luma(drawn));
+    }
+};
+
+class TextureJudge {
+  public:
+    TextureJudge(const Models& models, const Stage& stage, const TextureSet& set, const DirectionalTexture& texture,
+                 const Light& light)
+        : models_(models), stage_(stage), set_(set), texture_(texture), light_(light) {}
+    void add_view(const Wedge& wedge, double focal_px, const Judging& judging, uint32_t view);
+    TextureJudgement result() const;
+
+  private:
+    void add_line(const rays::Ray& ray, const rays::Hit& hit, uint64_t seed, Pixel& pixel);
+
+    const Models& models_;
+    const Stage& stage_;
+    const TextureSet& set_;
+    const DirectionalTexture& texture_;
+    const Light& light_;
+    TextureJudgement sum_;
+};
+
+void TextureJudge::add_line(const rays::Ray& ray, const rays::Hit& hit, uint64_t seed, Pixel& pixel) {
+    glm::dvec2 over = over_tile(glm::dvec3(ray.from_m), glm::dvec3(ray.along), set_.tile_m);
+    if (over.x >= over.y) return;
+    bool is_hit = hit.copy != rays::kNone;
+    if (is_hit && double(hit.distance) < over.x) return;  // something stands before the tile
+    ++pixel.lines;
+    if (is_hit && double(hit.distance) < over.y) {
+        Point point = point_of(models_, stage_.copies, hit, ray.along);
+        pixel.truth.colour += glm::dvec3(set_.has_normals ? point.albedo : lit(stage_.scene, point, light_, seed));
+        pixel.truth.coverage += 1;
+    }
+    Light3 drawn = drawn_along(set_, texture_, ray, over);
+    pixel.drawn.colour += drawn.colour, pixel.drawn.coverage += drawn.coverage;
+}
+
+void TextureJudge::add_view(const Wedge& wedge, double focal_px, const Judging& judging, uint32_t view) {
+    Random random(hash_of(judging.seed, kViewStream, view, 0));
+    double heading = wedge.heading_rad + (2 * random.next_unit() - 1) * wedge.half_width_rad;
+    double distance = wedge.nearest_m * std::pow(wedge.farthest_m / wedge.nearest_m, random.next_unit());
+    glm::dvec3 middle(wedge.tile_m / 2, wedge.tile_m / 2, (wedge.low_m + wedge.high_m) / 2);
+    glm::dvec3 from(middle.x + distance * std::sin(heading), middle.y + distance * std::cos(heading),
+                    wedge.eye_low_m + (wedge.eye_high_m - wedge.eye_low_m) * random.next_unit());
+    glm::dvec3 forward = glm::normalize(middle - from), right = glm::normalize(glm::dvec3(forward.y, -forward.x, 0)),
+               up = glm::cross(right, forward);
+    double radius_px = focal_px * glm::length(glm::dvec2(wedge.tile_m, wedge.high_m - wedge.low_m)) / distance;
+    auto side = uint32_t(std::clamp(std::ceil(radius_px), 1.0, double(judging.size_px)));
+    std::vector<Pixel> pixels(size_t(side) * side);
+    std::vector<rays::Ray> lines;
+    for (uint32_t i = 0; i < side * side * kSide * kSide; ++i) {
+        uint32_t column = i % (side * kSide), row = i / (side * kSide);
+        double x = ((column + 0.5) / kSide - side / 2.0) / focal_px, y = (side / 2.0 - (row + 0.5) / kSide) / focal_px;
+        lines.push_back({glm::vec3(from), glm::vec3(glm::normalize(forward + x * right + y * up))});
+    }
+    std::vector<rays::Hit> hits(lines.size());
+    stage_.scene.first_hits(lines, hits);
+    for (uint32_t i = 0; i < lines.size(); ++i) {
+        uint32_t column = i % (side * kSide) / kSide, row = i / (side * kSide) / kSide;
+        add_line(lines[i], hits[i], hash_of(judging.seed, kTruthStream, view, i), pixels[size_t(row) * side + column]);
+    }
+    for (const Pixel& pixel : pixels) {
+        if (pixel.truth.coverage == 0 && pixel.drawn.coverage == 0) continue;
+        ++sum_.pixels, sum_.coverage += pixel.truth.coverage / pixel.lines;
+        sum_.drawn_coverage += pixel.drawn.coverage / pixel.lines, sum_.mean_error += pixel.error();
+    }
+}
+
+TextureJudgement TextureJudge::result() const {
+    TextureJudgement mean = sum_;
+    double pixels = std::max(1.0, double(mean.pixels));
+    mean.coverage /= pixels, mean.drawn_coverage /= pixels, mean.mean_error /= pixels;
+    return mean;
+}
+
+}  // namespace
+
+TextureJudgement judged_texture(const Models& models, const Stage& stage, const TextureSet& set,
+                                const DirectionalTexture& texture, uint32_t direction, double focal_px, const Light& light,
+                                const Judging& judging) {
+    TextureJudge judge(models, stage, set, texture, light);
+    for (uint32_t view = 0; view < judging.views; ++view) judge.add_view(far_wedge_of(set, direction), focal_px, judging, view);
+    return judge.result();
+}
+
+}  // namespace overlook::wang_ldi

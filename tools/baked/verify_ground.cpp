@@ -1,0 +1,66 @@
+// Ground of Wang tiles by itself: what stands on it overlaps nowhere, and each of its images and textures can be read and keeps
+// the rules.
+#include <nlohmann/json.hpp>
+
+#include "formats/numbers.h"
+#include "formats/wang_ground.h"
+#include "formats/wang_textures.h"
+#include "tools/bake/wang_ldi/planting_check.h"
+#include "tools/baked/verbs.h"
+
+namespace overlook::baked {
+namespace {
+
+constexpr const char* kName = "baked verify";
+
+struct Read {
+    uint64_t images = 0, samples = 0, textures = 0;
+};
+
+Result<Read> read_all(const container::Reader& file, const command::Common& common) {
+    Read read;
+    if (!file.find(container::tag("WLDI"))) return read;
+    auto images = wang_ldi::ImageReader::open(file);
+    if (!images) return tl::unexpected(images.error());
+    command::Progress progress(common, "reading");
+    for (uint64_t i = 0; i < images->set().ldi_count(); ++i) {
+        auto ldi = images->read(i);
+        if (!ldi) return tl::unexpected(ldi.error());
+        ++read.images, read.samples += ldi->sample_count();
+        progress.set(double(i + 1) / double(images->set().ldi_count()));
+    }
+    if (!wang_ldi::has_textures(file)) return read;
+    auto textures = wang_ldi::read_textures(file, images->set());
+    if (!textures) return tl::unexpected(textures.error());
+    read.textures = textures->texture_count();
+    return read;
+}
+
+}  // namespace
+
+int verify_ground(const VerifyArgs& args, const container::Reader& file, const command::Common& common) {
+    auto ground = wang_ldi::read(file);
+    if (!ground) return command::fail(kName, ground.error());
+    auto read = read_all(file, common);
+    if (!read) return command::fail(kName, read.error());
+    wang_ldi::OverlapReport overlaps = wang_ldi::check_overlaps(ground->set, ground->planting);
+    bool holds = overlaps.tight_overlaps == 0;
+    if (common.json) {
+        nlohmann::ordered_json json{{"file", args.file},
+                                    {"holds", holds},
+                                    {"neighbourhoods", overlaps.neighbourhoods},
+                                    {"tight_overlaps", overlaps.tight_overlaps},
+                                    {"images", read->images},
+                                    {"samples", read->samples},
+                                    {"textures", read->textures}};
+        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    } else {
+        fmt::print("{} tight radii overlap in any of {} neighbourhoods; {} images of {} samples and {} textures are whole\n",
+                   overlaps.tight_overlaps, with_commas(overlaps.neighbourhoods), with_commas(read->images),
+                   with_commas(read->samples), with_commas(read->textures));
+        fmt::print("{}\n", holds ? "every promise holds" : "a promise is broken");
+    }
+    return int(holds ? Exit::done : Exit::answer_is_no);
+}
+
+}  // namespace overlook::baked
