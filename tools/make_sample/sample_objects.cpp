@@ -176,7 +176,8 @@ Result<std::vector<std::string>> make_object(const std::string& name, const std:
     bool is_vase = name == "vase";
     mesh::Mesh mesh = is_vase ? vase_mesh() : masts_mesh();
     scene::Scene scene;
-    scene.layers.push_back({name + ".ovl", {}, {}, "caveclod", "", {}});
+    scene.layers.resize(1);
+    scene.layers[0].asset = name + ".ovl", scene.layers[0].method = "caveclod";
     std::pair<std::string, std::string> files[] = {
         {name + ".obj", obj_text_of(mesh, name)},
         {name + ".mtl", mtl_text_of(mesh)},

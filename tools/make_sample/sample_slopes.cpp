@@ -51,7 +51,8 @@ Result<std::vector<std::string>> make_slopes(const std::string& folder) {
     placement.cell_m = kSlopesCell_m;
     std::vector<std::byte> tiff = geotiff_bytes(samples, kSlopesSide, kSlopesSide, placement, std::nullopt);
     scene::Scene scene;
-    scene.layers.push_back({"slopes.ovl", {}, {}, "terrain", "", {}});
+    scene.layers.resize(1);
+    scene.layers[0].asset = "slopes.ovl", scene.layers[0].method = "terrain";
     std::string text = scene::json_from_scene(scene);
 
     if (Result<void> written = made->write("dem.tif", tiff); !written) return tl::unexpected(written.error());

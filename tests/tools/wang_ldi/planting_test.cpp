@@ -281,9 +281,27 @@ TEST(PaperPlanting, HasAlmostAsManyObjectsInEveryTile) {
     auto planting = plant_as_paper(set, options, report);
     ASSERT_TRUE(planting);
     EXPECT_NEAR(report.density_per_m2, 0.5, 0.03);
-    size_t least = 99, most = 0;
-    for (const auto& tile : planting->tiles) least = std::min(least, tile.size()), most = std::max(most, tile.size());
-    EXPECT_LE(most - least, 4u);
+    // Counts spread half as far as those of darts that are thrown without turns, at most.
+    double mean = report.density_per_m2 * options.tile_size_m * options.tile_size_m, squares = 0;
+    for (const auto& tile : planting->tiles) squares += (double(tile.size()) - mean) * (double(tile.size()) - mean);
+    EXPECT_LE(std::sqrt(squares / double(planting->tiles.size())), std::sqrt(mean) / 2);
+}
+
+TEST(PaperPlanting, PlantsEveryModelAsOftenAsItsWeightSays) {
+    TileSet set = set_of(12);
+    PlantOptions options = mixed();
+    options.density_per_m2 = 0.6;
+    PlantReport report;
+    auto planting = plant_as_paper(set, options, report);
+    ASSERT_TRUE(planting);
+    std::array<double, 3> shares{};
+    double all = 0;
+    for (const auto& tile : planting->tiles)
+        for (const Planted& object : tile) shares[object.model] += 1, all += 1;
+    EXPECT_NEAR(shares[0] / all, 2.0 / 6, 0.08);
+    EXPECT_NEAR(shares[1] / all, 1.0 / 6, 0.08);
+    EXPECT_NEAR(shares[2] / all, 3.0 / 6, 0.08);
+    EXPECT_EQ(check_overlaps(set, *planting).tight_overlaps, 0u);
 }
 
 TEST(RelativeRadius, IsOneOfAHexagonalGridAndFallsAsItThins) {

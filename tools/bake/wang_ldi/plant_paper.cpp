@@ -35,9 +35,11 @@ class RoundRobin {
     }
 
   private:
+    // One object, at up to so many places; that found none has had its turn.
     bool visit(size_t t) {
+        Planted object = choice_.choose(HUGE_VAL, 1, random_);
         for (uint32_t i = 0; i < options_.tries; ++i) {
-            std::optional<Dart> dart = throw_dart();
+            std::optional<Dart> dart = throw_dart(object);
             if (!dart || !has_place(t, *dart)) continue;
             add(t, *dart);
             return true;
@@ -46,9 +48,9 @@ class RoundRobin {
     }
 
     // None if its tight radius would protrude across a corner.
-    std::optional<Dart> throw_dart() {
+    std::optional<Dart> throw_dart(const Planted& object) {
         Dart dart;
-        dart.planted = choice_.choose(HUGE_VAL, 0, random_);
+        dart.planted = object;
         dart.planted.x_m = float(random_.next_unit() * size_), dart.planted.y_m = float(random_.next_unit() * size_);
         if (double(dart.planted.x_m) >= size_ || double(dart.planted.y_m) >= size_) return std::nullopt;
         dart.x = double(dart.planted.x_m), dart.y = double(dart.planted.y_m);
