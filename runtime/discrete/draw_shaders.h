@@ -109,12 +109,17 @@ float further_light(vec3 normal, vec3 to_eye) {
 }
 #endif
 
-// Light from the upper left, and a little from the eye.
-vec3 own_colour(bool is_plain) {
+vec3 unlit_colour(bool is_plain) {
     vec4 own = base_colour * surface.tint;
     vec4 texel = texture(picture, surface.uv);
     if (!is_plain) own *= texel;
     if (own.a < alpha_cutoff) discard;
+    return own.rgb;
+}
+
+// Light from the upper left, and a little from the eye.
+vec3 own_colour(bool is_plain) {
+    vec3 own = unlit_colour(is_plain);
     vec3 flat_normal = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
     if (dot(flat_normal, surface.relative_m) > 0.0) flat_normal = -flat_normal;
     vec3 normal = has_normals && !is_plain ? normalize(surface.normal) : flat_normal;
@@ -124,7 +129,7 @@ vec3 own_colour(bool is_plain) {
 #if SHADING_ROUNDS > 0
     light = 0.5 * light + 0.5 * further_light(normal, -normalize(surface.relative_m));
 #endif
-    return own.rgb * (light + 0.15 * max(0.0, dot(normal, -normalize(surface.relative_m))));
+    return own * (light + 0.15 * max(0.0, dot(normal, -normalize(surface.relative_m))));
 }
 )";
 

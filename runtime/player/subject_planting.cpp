@@ -53,7 +53,8 @@ class PlantingSubject : public Subject {
     void take_counts(FrameRecord& record) const {
         const wang_ldi::FrameCounts& counts = frames_->counts();
         record.planting = counts;
-        record.triangle_count = counts.triangle_count, record.void_rim_triangle_count = counts.void_rim_triangle_count;
+        record.triangle_count = counts.triangle_count + counts.plants.triangle_count;
+        record.void_rim_triangle_count = counts.void_rim_triangle_count;
         record.tested_count = counts.terrain_tested_count + counts.field.tiles_tested + counts.field.blocks_tested;
         record.uploaded_bytes = counts.uploaded_bytes;
         record.predicted_error_px = counts.predicted_error_px;
@@ -69,7 +70,7 @@ class PlantingSubject : public Subject {
         wanted.shows_rings = wanted.shows_rings != style.shows_sources;
         wanted.is_pipelined = wanted.is_pipelined || style.is_pipelined;
         if (frames_ != nullptr) {
-            if (!(frames_->options() == wanted)) frames_->change(wanted);
+            if (frames_->options() != wanted) frames_->change(wanted);
             return {};
         }
         auto made = wang_ldi::FrameDrawer::make(land_->planted(), land_->land(), wanted, streaming_);
@@ -95,6 +96,9 @@ Result<std::unique_ptr<Subject>> read_planting(PlantingLayer planting, const Lay
     }
     auto land = wang_ldi::PlantedLand::read(std::move(planting.file), std::move(on), planting.planting, planting.scene_path);
     if (!land) return tl::unexpected(land.error());
+    if (layer.planting.geometry_m > 0) {
+        if (Result<void> models = (*land)->read_models(); !models) return tl::unexpected(models.error());
+    }
     return std::make_unique<PlantingSubject>(std::move(*land), layer,
                                              wang_ldi::ImageStreaming{streaming.settings, streaming.waits});
 }

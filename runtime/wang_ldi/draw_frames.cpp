@@ -29,6 +29,17 @@ view::Camera moved(view::Camera camera, const glm::dvec3& by_m) {
 
 }  // namespace
 
+glm::dvec3 origin_of(const Land& land, const view::Camera& camera) {
+    return land.is_plain ? plain_origin_m(camera.position_m) : glm::dvec3(0);
+}
+
+view::Camera with_clear_near_plane(const terrain::Terrain& terrain, bool is_plain, const view::Camera& camera) {
+    glm::dvec3 origin_m = is_plain ? plain_origin_m(camera.position_m) : glm::dvec3(0);
+    view::Camera clear = camera;
+    clear.near_m = terrain::with_clear_near_plane(terrain, moved(camera, -origin_m)).near_m;
+    return clear;
+}
+
 FrameDrawer::FrameDrawer(const PlantedField& planted, const Land& land, const FrameOptions& options,
                          const ImageStreaming& streaming)
     : planted_(planted), land_(land), options_(options), streaming_(streaming) {}
@@ -86,25 +97,39 @@ Result<void> FrameDrawer::decide(const view::Camera& camera, double dt_s, double
 
 Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, double morph, Slot& slot) {
     slot.counts = {};
-    slot.origin_m = land_.is_plain ? plain_origin_m(camera.position_m) : glm::dvec3(0);
-    view::Camera local = terrain::with_clear_near_plane(*land_.terrain, moved(camera, -slot.origin_m));
-    slot.camera = camera;
-    slot.camera.near_m = local.near_m;
+    slot.origin_m = origin_of(land_, camera);
+    slot.camera = with_clear_near_plane(*land_.terrain, land_.is_plain, camera);
     Result<Field> field =
-        Field::of(planted_.parts(), field_options_of(planted_.images().set(), options_, view::focal_px(slot.camera)));
+        Field::of(planted_.parts(), field_options_of(planted_.images().set(), field_options(), view::focal_px(slot.camera)));
     if (!field) return tl::unexpected(field.error());
     slot.field.emplace(std::move(*field));
 
     Clock clock;
-    land_.refiner->cut_by_pixels(local, options_.error_px, slot.cut, morph);
+    land_.refiner->cut_by_pixels(moved(slot.camera, -slot.origin_m), options_.error_px, slot.cut, morph);
     if (Result<void> listed = list(slot, dt_s); !listed) return listed;
     FrameCounts& counts = slot.counts;
+    list_plants(slot);
     counts.list_ms = clock.elapsed_ms();
     counts.triangle_count = slot.cut.triangle_count(), counts.void_rim_triangle_count = slot.cut.void_rim_triangle_count;
     counts.terrain_tested_count = slot.cut.tested_count;
     counts.predicted_error_px = slot.cut.predicted_error_px;
     counts.threads = thread_count();
     return {};
+}
+
+// Without models nothing is drawn as geometry.
+FrameOptions FrameDrawer::field_options() const {
+    FrameOptions options = options_;
+    if (land_.plants == nullptr) options.geometry_m = 0;
+    return options;
+}
+
+void FrameDrawer::list_plants(Slot& slot) const {
+    slot.plants.assign(planted_.planting().models.size(), {});
+    for (const Item& item : slot.list.items)
+        for (const Shown& shown : slot.list.shown_of(item))
+            if (slot.field->ladder().rungs[shown.rung].stage == Stage::geometry)
+                add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, slot.plants);
 }
 
 // And has its images at hand, or others in their place.
@@ -155,7 +180,10 @@ void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& loo
     Slot& slot = slots_[shown_];
     view::Camera local = moved(slot.camera, -slot.origin_m);
     land_.drawing->draw(target, slot.cut, local, look);
-    slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + composite_->take(slot.picture);
+    slot.counts.plants = {};
+    if (land_.plants != nullptr) slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants, options_.error_px);
+    slot.counts.uploaded_bytes =
+        land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes + composite_->take(slot.picture);
     composite_->draw(target, slot.camera, land_.drawing->haze_per_m(look));
 }
 

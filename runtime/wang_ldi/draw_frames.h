@@ -11,6 +11,7 @@
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
 #include "runtime/wang_ldi/draw_composite.h"
+#include "runtime/wang_ldi/draw_plants.h"
 #include "runtime/wang_ldi/image_store.h"
 #include "runtime/wang_ldi/planted_field.h"
 #include "runtime/wang_ldi/rings.h"
@@ -25,7 +26,11 @@ struct Land {
     const terrain::Refiner* refiner = nullptr;  // of terrain
     terrain::Drawing* drawing = nullptr;        // of terrain
     bool is_plain = false;                      // plain_terrain(), which goes where the eye goes
+    Plants* plants = nullptr;                   // for near tiles; null: they are drawn as far ones
 };
+// Where the origin of its terrain lies for a camera, and the camera with a near plane that cuts nothing off the terrain.
+glm::dvec3 origin_of(const Land& land, const view::Camera& camera);
+view::Camera with_clear_near_plane(const terrain::Terrain& terrain, bool is_plain, const view::Camera& camera);
 
 // How images are read.
 struct ImageStreaming {
@@ -42,6 +47,7 @@ struct FrameCounts {
     uint64_t terrain_tested_count = 0;
     uint64_t uploaded_bytes = 0;
     FieldCounts field;
+    PlantCounts plants;  // drawn as geometry
     WarpCounts warp;
     ImageStore::Taken images;
     stream::Counts stream;
@@ -81,12 +87,15 @@ class FrameDrawer {
         std::optional<Field> field;
         FieldList list;
         terrain::Cut cut;
+        std::vector<PlantPlaces> plants;  // drawn as geometry
         Warped picture;
         FrameCounts counts;
     };
     FrameDrawer(const PlantedField& planted, const Land& land, const FrameOptions& options, const ImageStreaming& streaming);
     Result<void> prepare(const view::Camera& camera, double dt_s, double morph, Slot& slot);
     Result<void> list(Slot& slot, double dt_s);
+    void list_plants(Slot& slot) const;
+    FrameOptions field_options() const;
     void look_ahead(Slot& slot, double dt_s);
     void warp(Slot& slot);
     void wait();

@@ -55,13 +55,34 @@ Result<std::unique_ptr<PlantedLand>> PlantedLand::read(container::Reader file, s
     Result<std::unique_ptr<PlantedField>> planted = PlantedField::open(std::move(file), std::move(on), *options);
     if (!planted) return tl::unexpected(planted.error());
     made->planted_ = std::move(*planted);
+    made->described_ = planting, made->scene_path_ = scene_path;
     return made;
+}
+
+Result<void> PlantedLand::read_models() {
+    size_t wanted = planted_->planting().models.size();
+    if (described_.models.empty())
+        return bad_input("{}: names no models of what {} plants; they are chains of levels (bake-lod discrete)", scene_path_,
+                         planted_->name());
+    if (described_.models.size() != wanted)
+        return bad_input("{}: names {} models, and {} plants {}", scene_path_, described_.models.size(), planted_->name(),
+                         wanted);
+    for (const std::string& model : described_.models) {
+        Result<discrete::Chain> chain = discrete::read(scene::path_in_scene(scene_path_, model));
+        if (!chain) return tl::unexpected(chain.error());
+        models_.push_back(std::move(*chain));
+    }
+    return {};
 }
 
 Result<void> PlantedLand::upload() {
     Result<terrain::Drawing> drawing = terrain::Drawing::make(*terrain_);
     if (!drawing) return tl::unexpected(drawing.error());
     drawing_.emplace(std::move(*drawing));
+    if (models_.empty()) return {};
+    Result<Plants> plants = Plants::make(models_, !planted_->images().set().has_normals);
+    if (!plants) return tl::unexpected(plants.error());
+    plants_.emplace(std::move(*plants));
     return {};
 }
 

@@ -11,10 +11,11 @@ constexpr SettingKind kErrorPx{"error-px", 0.001, 10000, kDefaults.error_px};
 constexpr SettingKind kRadiusM{"radius-m", 0, 1e7, kDefaults.radius_m, false, true};
 constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 6> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 7> kOwn = {kErrorPx,
                                              kRadiusM,
                                              SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                              SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
+                                             SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
                                              kPipelined,
                                              kRings};
 constexpr std::array<SettingKind, 4> kPaper = {kErrorPx, kRadiusM, kPipelined, kRings};
@@ -41,6 +42,8 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.fade = value;
     } else if (name == "direction-fade") {
         options.direction_fade = value;
+    } else if (name == "geometry-m") {
+        options.geometry_m = value;
     } else if (name == "pipelined") {
         options.is_pipelined = value != 0;
     } else {
@@ -51,7 +54,7 @@ void set(FrameOptions& options, std::string_view name, double value) {
 
 FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px) {
     bool is_paper = options.variant == Variant::paper;
-    FieldOptions made = is_paper ? paper_options(images) : options_to_horizon(images, focal_px);
+    FieldOptions made = is_paper ? paper_options(images) : options_to_horizon(images, focal_px, options.geometry_m);
     if (!is_paper) {
         made.ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
         made.displacement_px = options.error_px;

@@ -23,7 +23,7 @@ std::optional<double> of_g(R record, Value value) {
     return record.numbers.g ? std::optional(double(value(*record.numbers.g))) : std::nullopt;
 }
 
-constexpr std::array<Figure, 34> kFigures = {{
+constexpr std::array<Figure, 38> kFigures = {{
     {"e_p99_flip", "LDR-FLIP against the reference, 99th percentile over pixels", [](R r) -> O { return r.numbers.e_p99; }, true},
     {"e_mean_flip", "the same, mean over pixels", [](R r) -> O { return r.numbers.e_mean; }, true},
     {"w_luma", "change from frame to frame that the reference does not have", [](R r) -> O { return r.numbers.w; }, true},
@@ -60,6 +60,11 @@ constexpr std::array<Figure, 34> kFigures = {{
     {"operations", "splits and collapses, of all cameras", [](R r) -> O { return double(r.counters.operation_count); }, true},
     {"transitions", "instances on their way from level to level", [](R r) -> O { return double(r.counters.transition_count); },
      true},
+    {"samples_warped", "of layered depth images", [](R r) -> O { return double(r.counters.sample_count); }, true},
+    {"tiles", "of planted ground, drawn by layered depth images", [](R r) -> O { return double(r.counters.tile_count); }, true},
+    {"outside_tiles", "of those, seen from where they were not sampled for",
+     [](R r) -> O { return double(r.counters.outside_count); }, true},
+    {"missing_images", "for which another stood in, or none", [](R r) -> O { return double(r.counters.missing_count); }, true},
     {"camera_bytes", "what cameras keep in main memory beside what they share",
      [](R r) -> O { return double(r.counters.camera_bytes); }, true},
     {"wrong_corners", "corners of triangles drawn with the attributes of another face",

@@ -28,6 +28,10 @@ FullGeometry::FullGeometry(World& world) : world_(&world) {
         lists_.resize(world.chains.size());
         return;
     }
+    if (world.is_planted()) {
+        world.planted->land().refiner->cut_by_metres(kEverything_m, cut_);
+        return;
+    }
     if (!world.mesh) {
         cut_ = full_cut(world);
         return;
@@ -61,7 +65,26 @@ Counters FullGeometry::draw_chains(const gl::Target& target, const view::Camera&
     return counters;
 }
 
+Counters FullGeometry::draw_planted(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
+    wang_ldi::Land land = world_->planted->land();
+    terrain::DrawOptions look = world_->look;
+    look.part = part;
+    view::Camera on_ground = camera;
+    on_ground.position_m -= wang_ldi::origin_of(land, camera);
+    Counters counters = draw_cut(*land.drawing, world_->resident_bytes, target, cut_, on_ground, look);
+    auto plants = wang_ldi::plants_in_sight(world_->planted->planted(), camera, kPlantsUpTo_m);
+    wang_ldi::PlantCounts drawn = land.plants->draw(target, camera, plants, kPlantError_px, part);
+    target.resolve();
+    counters.triangle_count += drawn.triangle_count;
+    counters.vertex_reference_count += 3 * drawn.triangle_count;
+    counters.draw_call_count += drawn.draw_call_count;
+    counters.uploaded_bytes += drawn.uploaded_bytes;
+    counters.predicted_error_px = kPlantError_px;
+    return counters;
+}
+
 Counters FullGeometry::draw(const gl::Target& target, const view::Camera& camera, const std::optional<view::Part>& part) {
+    if (world_->is_planted()) return draw_planted(target, camera, part);
     if (world_->is_chain()) return draw_chains(target, camera, part);
     if (!world_->mesh) {
         terrain::DrawOptions look = world_->look;

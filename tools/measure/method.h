@@ -28,6 +28,10 @@ struct Counters {
     uint64_t key_pixel_count = 0;     // of keyframes, drawn besides the picture's own
     uint64_t operation_count = 0;     // splits and collapses, of all cameras
     uint64_t transition_count = 0;    // instances on their way from level to level
+    uint64_t sample_count = 0;        // of layered depth images, warped
+    uint64_t tile_count = 0;          // of planted ground, drawn by them
+    uint64_t outside_count = 0;       // of those, seen from where they were not sampled for
+    uint64_t missing_count = 0;       // images that another stood in for, or none
     uint64_t camera_bytes = 0;        // what cameras keep in main memory beside what they share
     uint64_t wrong_corner_count = 0;  // of triangles drawn with the attributes of another face
     double predicted_error_px = 0;

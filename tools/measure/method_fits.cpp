@@ -5,13 +5,18 @@
 
 namespace overlook::measure {
 
+bool draws_plantings(const MethodSpec& spec) {
+    return spec.name == "wang-ldi" || is_floor(spec);
+}
+
 bool draws_meshes(const MethodSpec& spec) {
+    if (spec.name == "wang-ldi") return false;
     if (spec.name == "discrete") return spec.variant.empty();
     return !draws_terrains(spec) || is_floor(spec) || (spec.name == "lod-sprite" && spec.variant.empty());
 }
 
 bool draws_terrains(const MethodSpec& spec) {
-    return spec.name != "caveclod" && spec.name != "discrete";
+    return spec.name != "caveclod" && spec.name != "discrete" && spec.name != "wang-ldi";
 }
 
 bool draws_chains(const MethodSpec& spec) {
@@ -24,9 +29,13 @@ bool is_of_chains_alone(const MethodSpec& spec) {
 
 Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) {
     for (const MethodSpec& spec : specs) {
-        bool draws = world.is_chain() ? draws_chains(spec) : world.is_mesh() ? draws_meshes(spec) : draws_terrains(spec);
+        bool draws = world.is_planted() ? draws_plantings(spec)
+                     : world.is_chain() ? draws_chains(spec)
+                     : world.is_mesh()  ? draws_meshes(spec)
+                                        : draws_terrains(spec);
         if (!draws) {
-            std::string_view drawn = draws_terrains(spec) && !is_floor(spec)          ? "terrains"
+            std::string_view drawn = spec.name == "wang-ldi"                          ? "plantings"
+                                     : draws_terrains(spec) && !is_floor(spec)        ? "terrains"
                                      : spec.name == "discrete" && !draws_meshes(spec) ? "chains of levels"
                                                                                       : "meshes";
             return impossible("--method {}: it draws {}, and {} holds a {}", named(spec), drawn, world.name, world.thing());

@@ -16,6 +16,7 @@
 #include "tools/measure/lod_sprite_method.h"
 #include "tools/measure/lod_sprite_paper_method.h"
 #include "tools/measure/mesh_method.h"
+#include "tools/measure/planting_method.h"
 #include "tools/measure/streamed_method.h"
 #include "tools/measure/terrain_method.h"
 
@@ -57,6 +58,10 @@ std::vector<MethodKind> make_kinds() {
     for (const DiscreteVariant& one : discrete_variants()) levels.push_back(with_samples(discrete::setting_kinds(one.variant)));
     kinds.push_back({"discrete", "", levels.front()});
     for (size_t i = 0; i < levels.size(); ++i) kinds.push_back({"discrete", discrete_variants()[i].name, levels[i]});
+    static const std::vector<SettingKind> kPlanted = planting_settings(wang_ldi::Variant::own),
+                                          kPlantedPaper = planting_settings(wang_ldi::Variant::paper);
+    kinds.push_back({"wang-ldi", "", kPlanted});
+    kinds.push_back({"wang-ldi", "paper", kPlantedPaper});
     kinds.push_back({"full", "", kFullSettings});
     return kinds;
 }
@@ -279,6 +284,7 @@ std::unique_ptr<Method> make_method(const MethodSpec& spec, World& world) {
     if (family_of(spec) == "lod-sprite:paper") return make_lod_sprite_paper_method(world, spec);
     if (spec.name == "lod-sprite") return make_lod_sprite_method(world, spec);
     if (spec.name == "caveclod") return make_caveclod_method(world, spec);
+    if (world.is_planted()) return make_planting_method(world, spec);
     if (world.is_chain()) return make_chain_method(world, spec);
     if (spec.name == "discrete") return make_discrete_method(world, setting(spec, "error-px"));
     assert(spec.name == "terrain");

@@ -23,7 +23,8 @@ const MethodKind* kind_of(const MethodSpec& spec);  // null of none
 std::string named(const MethodSpec& spec);          // "terrain:hard"
 
 // Reads "NAME[:variant][@setting=value]...". Fails with Exit::bad_command:
-//   "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, caveclod, discrete, full)"
+//   "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, caveclod, discrete, wang-ldi,
+//   full)"
 //   "--method terrain:soft: terrain has no such variant"
 //   "--method terrain@eror-px=2: terrain has no setting eror-px; did you mean error-px?"
 //   "--method terrain:hard@morph=1: terrain:hard has no setting morph"
@@ -50,6 +51,7 @@ double budget_of(const MethodSpec& spec);
 bool draws_terrains(const MethodSpec& spec);
 bool draws_meshes(const MethodSpec& spec);
 bool draws_chains(const MethodSpec& spec);
+bool draws_plantings(const MethodSpec& spec);
 bool is_of_chains_alone(const MethodSpec& spec);  // discrete:fsi and its like
 // Fails with Exit::impossible:
 //   "--method caveclod: it draws meshes, and valley.json holds a terrain"

@@ -25,6 +25,13 @@ std::string shaders_hash(const World& world) {
     namespace ground = terrain::shaders;
     std::string shared = std::string(gl::shaders::kEncoding) + gl::shaders::kUnmoved + gl::shaders::kShadedMain +
                          gl::shaders::kBackgroundVertex + gl::shaders::kBackgroundDirection;
+    std::string ground_text = std::string(ground::kTerrainVertexInputs) + ground::kRasterCells + ground::kTerrainVertexMain +
+                              ground::kAir + ground::kTerrainFragment + ground::kSkyRowFragment + ground::kSkyFragment;
+    if (world.is_planted()) {
+        return hash_of(shared + ground_text + discrete::shaders::kItems + discrete::shaders::kVertex +
+                       discrete::shaders::kFragment + discrete::shaders::kOnePictureMain +
+                       fmt::format("{} {}", kPlantError_px, kPlantsUpTo_m));
+    }
     if (world.is_chain()) {
         return hash_of(shared + discrete::shaders::kItems + discrete::shaders::kVertex + discrete::shaders::kFragment +
                        discrete::shaders::kOnePictureMain);
@@ -33,8 +40,7 @@ std::string shaders_hash(const World& world) {
         return hash_of(shared + mesh::kMeshVertexInputs + mesh::kMeshVertexMain + mesh::kMeshFragment +
                        mesh::kBackgroundFragment);
     }
-    return hash_of(shared + ground::kTerrainVertexInputs + ground::kRasterCells + ground::kTerrainVertexMain + ground::kAir +
-                   ground::kTerrainFragment + ground::kSkyRowFragment + ground::kSkyFragment);
+    return hash_of(shared + ground_text);
 }
 
 std::string bits_of(double number) {

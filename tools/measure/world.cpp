@@ -5,6 +5,7 @@
 
 #include "formats/container.h"
 #include "formats/mapped_file.h"
+#include "formats/wang_ground.h"
 #include "runtime/terrain/near_plane.h"
 #include "runtime/view/flight.h"
 
@@ -81,6 +82,48 @@ Result<double> read_layer(const scene::Scene& scene, const std::string& path, si
     return *near_m * layer.transform.scale;
 }
 
+bool is_planting(const scene::Layer& layer) {
+    return layer.method == "wang-ldi";
+}
+
+// A file of the scene, which the hash grows by.
+Result<container::Reader> open_hashed(const std::string& path, std::string& hash) {
+    Result<MappedFile> bytes = MappedFile::open(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    hash += content_hash(bytes->bytes());
+    return container::Reader::open(path);
+}
+
+// All layers of a scene that plants.
+Result<double> read_planted(const scene::Scene& scene, const std::string& path, World& world, std::string& hash) {
+    std::optional<container::Reader> planting;
+    std::optional<terrain::Terrain> ground;
+    scene::Planting described;
+    for (size_t place = 0; place < scene.layers.size(); ++place) {
+        const scene::Layer& layer = scene.layers[place];
+        Result<container::Reader> file = open_hashed(scene::asset_path(path, layer), hash);
+        if (!file) return tl::unexpected(file.error());
+        if (is_planting(layer) ? planting || file->kind() != wang_ldi::kKind : ground || file->kind() != terrain::kKind)
+            return impossible("{}: /layers/{}: {} is a second planting, or no terrain; measure draws one planting on one terrain",
+                              path, place, file->name());
+        if (is_planting(layer)) {
+            described = layer.planting.value_or(described);
+            planting = std::move(*file);
+            continue;
+        }
+        Result<terrain::Terrain> terrain = terrain::read(*file);
+        if (!terrain) return tl::unexpected(terrain.error());
+        ground = std::move(*terrain), world.transform = layer.transform;
+    }
+    for (const std::string& model : described.models)
+        if (auto file = open_hashed(scene::path_in_scene(path, model), hash); !file) return tl::unexpected(file.error());
+    auto land = wang_ldi::PlantedLand::read(std::move(*planting), std::move(ground), described, path);
+    if (!land) return tl::unexpected(land.error());
+    if (Result<void> models = (*land)->read_models(); !models) return tl::unexpected(models.error());
+    world.planted = std::move(*land);
+    return wang_ldi::kPlantedNear_m * world.transform.scale;
+}
+
 }  // namespace
 
 Result<World> read_world(const std::string& path) {
@@ -94,7 +137,13 @@ Result<World> read_world(const std::string& path) {
     world.asset_path = scene::asset_path(path, scene->layers.front());
     std::string hashes = content_hash(scene_file->bytes());
     double near_m = std::numeric_limits<double>::infinity();
-    for (size_t place = 0; place < scene->layers.size(); ++place) {
+    bool plants = std::any_of(scene->layers.begin(), scene->layers.end(), is_planting);
+    if (plants) {
+        Result<double> planted_m = read_planted(*scene, path, world, hashes);
+        if (!planted_m) return tl::unexpected(planted_m.error());
+        near_m = *planted_m;
+    }
+    for (size_t place = 0; place < (plants ? 0 : scene->layers.size()); ++place) {
         Result<double> least_m = read_layer(*scene, path, place, world, hashes);
         if (!least_m) return tl::unexpected(least_m.error());
         near_m = std::min(near_m, *least_m);
@@ -115,6 +164,7 @@ const MeshHonesty& MeshWorld::honesty() {
 
 view::Camera World::local(const view::Camera& camera) const {
     view::Camera own = view::camera_into(transform, camera);
+    if (is_planted()) return wang_ldi::with_clear_near_plane(planted->terrain(), planted->is_plain(), own);
     return is_mesh() || is_chain() ? own : terrain::with_clear_near_plane(*terrain, own);
 }
 
@@ -144,6 +194,12 @@ Result<void> upload(World& world, uint32_t shading_rounds) {
         if (!drawing) return tl::unexpected(drawing.error());
         world.resident_bytes += drawing->bytes();
         one.drawing.emplace(std::move(*drawing));
+    }
+    if (world.is_planted()) {
+        Result<void> uploaded = world.planted->upload();
+        if (!uploaded) return uploaded;
+        world.resident_bytes = bytes_on_card(world.planted->terrain()) + world.planted->plants()->bytes();
+        return {};
     }
     if (world.is_chain()) return {};
     if (world.is_mesh()) {

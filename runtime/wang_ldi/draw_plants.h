@@ -1,0 +1,46 @@
+// What is planted as geometry: instances of chains of levels on their ground, each at a level within the error asked.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "formats/discrete.h"
+#include "runtime/discrete/draw.h"
+#include "runtime/gl/target.h"
+#include "runtime/wang_ldi/plants.h"
+
+namespace overlook::wang_ldi {
+
+struct PlantCounts {
+    uint64_t plant_count = 0;     // in view
+    uint64_t triangle_count = 0;  // submitted
+    uint64_t draw_call_count = 0, uploaded_bytes = 0;
+};
+
+// A context must be current.
+class Plants {
+  public:
+    // chains: one a model of the planting, which must outlive this. is_lit: by a light of the scene's; else in their own colours,
+    // as images are whose colours are unlit. Fails as discrete::Drawing::make.
+    static Result<Plants> make(std::span<const discrete::Chain> chains, bool is_lit);
+
+    // Draws over what the target holds, by depth; does not resolve. error_px: of the target's pixels; 0: the finest levels. part:
+    // of the camera's picture, that the target shows; the whole of it if not said.
+    PlantCounts draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px,
+                     const std::optional<view::Part>& part = std::nullopt);
+    uint64_t bytes() const;  // on the card
+
+  private:
+    struct Model {
+        discrete::ChainFacts facts;
+        discrete::Drawing drawing;
+        std::optional<gl::Program> unlit;
+        discrete::ListBuffers buffers;
+    };
+    std::vector<std::unique_ptr<Model>> models_;
+};
+
+}  // namespace overlook::wang_ldi

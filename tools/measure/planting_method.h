@@ -1,0 +1,20 @@
+// Planted ground as a method to measure: the terrain by OpenGL, layered depth images warped over it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "formats/setting.h"
+#include "runtime/wang_ldi/settings.h"
+#include "tools/measure/method.h"
+#include "tools/measure/world.h"
+
+namespace overlook::measure {
+
+// What a variant has, and "memory-mib" of images and "samples".
+std::vector<SettingKind> planting_settings(wang_ldi::Variant variant);
+
+// Every frame waits for the images that its memory has room for. The world must hold planted ground, be uploaded and outlive it.
+std::unique_ptr<Method> make_planting_method(World& world, const MethodSpec& spec);
+
+}  // namespace overlook::measure
