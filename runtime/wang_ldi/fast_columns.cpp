@@ -51,7 +51,7 @@ void FastColumns<hiding>::draw_row(uint32_t row, const Span& columns, const uint
     uint32_t begin = ldi_.first[pixel + columns.from], end = ldi_.first[pixel + columns.to];
     if (begin == end) return;
     glm::vec3 foot = frame_.corner + frame_.middle_m(row) * frame_.north;
-    if (!may_be_seen(row, columns, foot)) return;
+    if (!is_inside && !may_be_seen(row, columns, foot)) return;
     copy(foot, row_.foot);
     uint32_t most = hiding == Hiding::by_depth ? std::min(kAtOnce, end - begin) : end - begin;
     if (tools_.pixels.size() < most + PreparedLdi::kPadding) {

@@ -31,6 +31,9 @@ class FastColumns final : public Columns {
     void draw(uint32_t column, uint32_t row) override { draw_row(row, {column, column + 1}, nullptr); }
     // shown: as ProjectSamples.
     void draw_row(uint32_t row, const Span& columns, const uint32_t* shown);
+    const uint32_t* first_of_row(uint32_t row) const { return ldi_.first.data() + size_t(row) * side_px; }
+
+    bool is_inside = false;  // the picture holds all of it, so that rows are not asked about
 
   private:
     bool may_be_seen(uint32_t row, const Span& columns, const glm::vec3& foot) const;

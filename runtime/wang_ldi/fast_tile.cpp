@@ -16,18 +16,27 @@ bool is_whole(const Columns& columns) {
 void TileFades::begin(uint64_t tile, uint32_t coarser_px) {
     tile_ = tile, coarser_px_ = coarser_px;
     by_rung_.clear();
-    for (uint32_t row = 0; row < coarser_px; ++row)
-        for (uint32_t column = 0; column < coarser_px; ++column)
-            by_rung_.push_back(uint8_t(rung_threshold(tile, column, row, coarser_px, coarser_px)));
 }
 
-void TileFades::mask(const Columns& columns, uint32_t row, const Span& span, std::vector<uint32_t>& shown) const {
-    shown.resize(columns.side_px);
-    const uint8_t* by_rung = by_rung_.data() + size_t(cell_of(row, columns.side_px, coarser_px_)) * coarser_px_;
+const uint8_t* TileFades::rungs_of_row(uint32_t row, uint32_t side_px) {
+    uint32_t cells = coarser_px_;
+    if (by_rung_.empty())
+        for (uint32_t y = 0; y < cells; ++y)
+            for (uint32_t x = 0; x < cells; ++x) by_rung_.push_back(uint8_t(rung_threshold(tile_, x, y, cells, cells)));
+    return by_rung_.data() + size_t(cell_of(row, side_px, cells)) * cells;
+}
+
+void TileFades::mask(const Columns& columns, uint32_t row, const Span& span, const uint32_t* first,
+                     std::vector<uint32_t>& shown) {
+    uint32_t side = columns.side_px, cells = coarser_px_;
+    shown.resize(side);
+    bool has_rungs = !(columns.by_rung == kAll), has_directions = !(columns.by_direction == kAll);
+    const uint8_t* by_rung = has_rungs ? rungs_of_row(row, side) : nullptr;
+    uint32_t cell = cell_of(span.from, side, cells);
     for (uint32_t column = span.from; column < span.to; ++column) {
-        bool is_shown = columns.by_rung.contains(by_rung[cell_of(column, columns.side_px, coarser_px_)]);
-        if (is_shown && !(columns.by_direction == kAll))
-            is_shown = columns.by_direction.contains(direction_threshold(tile_, column, row));
+        while (uint64_t(2 * column + 1) * cells >= uint64_t(2 * side) * (cell + 1)) ++cell;  // as cell_of
+        bool is_shown = first[column] != first[column + 1] && (!has_rungs || columns.by_rung.contains(by_rung[cell]));
+        if (is_shown && has_directions) is_shown = columns.by_direction.contains(direction_threshold(tile_, column, row));
         shown[column] = is_shown ? ~0u : 0;
     }
 }
@@ -37,9 +46,9 @@ void FastTile<hiding>::draw(const Item& item) {
     const Field& field = scene_.field;
     double side_m = field.parts().images->tile_m * double(int64_t(1) << item.tiles_log2);
     glm::dvec2 corner_m = field.parts().placement->rect_of(item.i, item.j).low_m;
-    if (!scene_.bounds.may_hold({corner_m, item.low_m}, {corner_m + side_m, item.high_m + scene_.highest_step_m},
-                                scene_.eye.focal_px * widest_splat_m(field, scene_.list, item)))
-        return;
+    glm::dvec3 low_m(corner_m, item.low_m), high_m(corner_m + side_m, item.high_m + scene_.highest_step_m);
+    double wide = scene_.eye.focal_px * widest_splat_m(field, scene_.list, item);
+    if (!scene_.bounds.may_hold(low_m, high_m, wide)) return;
     glm::dvec2 eye_share = (glm::dvec2(scene_.eye.position_m) - corner_m) / side_m;
     if (item.half_count == 0) {
         if (scene_.far != nullptr && item.texels_px > 0)
@@ -47,6 +56,8 @@ void FastTile<hiding>::draw(const Item& item) {
         return;
     }
     choose(item, corner_m);
+    bool is_inside = scene_.bounds.holds_all(low_m, high_m, wide);
+    for (FastColumns<hiding>& columns : images_) columns.is_inside = is_inside;
     for (const Half& half : scene_.list.halves_of(item)) draw_half(item, half, eye_share);
 }
 
@@ -99,7 +110,7 @@ void FastTile<hiding>::draw_rows(FastColumns<hiding>& columns, const Piece& piec
         uint32_t row = towards(j, eye_row, rows);
         Span span = columns_of(piece, row, side);
         if (span.is_empty()) continue;
-        if (!all_shown) fades_.mask(columns, row, span, tools_.shown);
+        if (!all_shown) fades_.mask(columns, row, span, columns.first_of_row(row), tools_.shown);
         columns.draw_row(row, span, all_shown ? nullptr : tools_.shown.data());
     }
 }

@@ -27,13 +27,16 @@ struct FastScene {
 class TileFades {
   public:
     void begin(uint64_t tile, uint32_t coarser_px);
-    // Writes all bits for each of a row's columns that is shown, none for the others.
-    void mask(const Columns& columns, uint32_t row, const Span& span, std::vector<uint32_t>& shown) const;
+    // Writes all bits for each of a row's columns that is shown, none for the others. first: of the row, as Ldi::first; columns
+    // without a sample are not decided.
+    void mask(const Columns& columns, uint32_t row, const Span& span, const uint32_t* first, std::vector<uint32_t>& shown);
 
   private:
+    const uint8_t* rungs_of_row(uint32_t row, uint32_t side_px);
+
     uint64_t tile_ = 0;
     uint32_t coarser_px_ = 1;
-    std::vector<uint8_t> by_rung_;  // [coarser_px, coarser_px]
+    std::vector<uint8_t> by_rung_;  // [coarser_px, coarser_px]; empty until they are asked for
 };
 
 template <Hiding hiding>

@@ -29,6 +29,7 @@ inline uint32_t first_pixel(int64_t times, uint32_t cells, uint32_t side_px) {
 }
 inline Span pixels_of(uint32_t cell, uint32_t cells, uint32_t side_px) {
     if (side_px == cells) return {cell, cell + 1};
+    if (cells == 1) return {0, side_px};
     return {first_pixel(cell, cells, side_px), first_pixel(int64_t(cell) + 1, cells, side_px)};
 }
 

@@ -76,9 +76,31 @@ inline void project_eight(const RowFrame& row, const uint32_t* places, const uin
     out.pixels = chosen(is_drawn, row.origin + out.top * row.stride + out.left, Ints{} + row.nowhere);
 }
 
+// Counts of each lane; flushed before they can overflow.
+struct LaneCounts {
+    Ints shown{}, drawn{}, pixels{}, least_side, most_side;
+
+    void flush(ProjectedCounts& counts) {
+        counts.samples += uint64_t(sum_of(shown)), counts.drawn += uint64_t(sum_of(drawn)),
+            counts.pixels += uint64_t(sum_of(pixels));
+        shown = drawn = pixels = Ints{};
+    }
+};
+
+inline void count_eight(const RowFrame& row, const Eight& eight, const Ints& side, LaneCounts& counts) {
+    counts.shown -= eight.is_shown, counts.drawn -= eight.is_drawn;
+    counts.least_side = lesser(counts.least_side, chosen(eight.is_drawn, side, Ints{} + 64));
+    counts.most_side = greater(counts.most_side, side & eight.is_drawn);
+    Ints wide = lesser(eight.left + eight.side, Ints{} + row.width_px) - greater(eight.left, Ints{});
+    Ints high = lesser(eight.top + eight.side, Ints{} + row.height_px) - greater(eight.top, Ints{});
+    counts.pixels += (wide * high) & eight.is_drawn;
+}
+
 inline void project_lanes(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
                           uint32_t count, const Projected& out, ProjectedCounts& counts) {
-    Ints least_side = Ints{} + counts.least_side, most_side = Ints{} + counts.most_side;
+    constexpr uint32_t kFlush = 1 << 18;  // samples: a lane counts 2^15 splats of 2^12 pixels
+    LaneCounts lanes;
+    lanes.least_side = Ints{} + counts.least_side, lanes.most_side = Ints{} + counts.most_side;
     const Ints lane{0, 1, 2, 3, 4, 5, 6, 7};
     for (uint32_t s = 0; s < count; s += kLanes) {
         Eight eight;
@@ -88,16 +110,13 @@ inline void project_lanes(const RowFrame& row, const uint32_t* places, const uin
         project_eight(row, places + s, splats == nullptr ? nullptr : splats + s, eight);
         Ints side = chosen(eight.is_drawn, eight.side, Ints{} + 1);
         store(out.pixels + s, eight.pixels), store(out.sides + s, side), store(out.depths_m + s, eight.depth_m);
-        least_side = lesser(least_side, chosen(eight.is_drawn, side, Ints{} + 64));
-        most_side = greater(most_side, side & eight.is_drawn);
-        Ints wide = lesser(eight.left + eight.side, Ints{} + row.width_px) - greater(eight.left, Ints{});
-        Ints high = lesser(eight.top + eight.side, Ints{} + row.height_px) - greater(eight.top, Ints{});
-        counts.samples -= uint64_t(sum_of(eight.is_shown)), counts.drawn -= uint64_t(sum_of(eight.is_drawn));
-        counts.pixels += uint64_t(sum_of((wide * high) & eight.is_drawn));
+        count_eight(row, eight, side, lanes);
+        if (s % kFlush == kFlush - kLanes) lanes.flush(counts);
     }
+    lanes.flush(counts);
     for (uint32_t k = 0; k < kLanes; ++k) {
-        if (least_side[k] < counts.least_side) counts.least_side = least_side[k];
-        if (most_side[k] > counts.most_side) counts.most_side = most_side[k];
+        if (lanes.least_side[k] < counts.least_side) counts.least_side = lanes.least_side[k];
+        if (lanes.most_side[k] > counts.most_side) counts.most_side = lanes.most_side[k];
     }
 }
 

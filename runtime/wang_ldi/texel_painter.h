@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "runtime/wang_ldi/far_colours.h"
 #include "runtime/wang_ldi/field.h"
@@ -23,6 +24,7 @@ class TexelPainter {
         texel_m_ = (rect_.high_m.x - rect_.low_m.x) / item.texels_px;
         uint32_t tiles = 1u << item.tiles_log2;
         in_tile_px_ = std::max(item.texels_px / tiles, 1u);
+        if (tiles > 1 && in_tile_px_ > 1) known_.assign(size_t(tiles) * tiles, kUnknown);
     }
 
     // From which tile a texel is, and what decides there between rungs and between directions.
@@ -60,18 +62,23 @@ class TexelPainter {
     // The whole item, of which nothing but texels is shown.
     void draw_all(std::span<const Shown> shown, const glm::dvec2& eye_share) {
         uint32_t side = item_.texels_px;
+        bool is_one = shown.size() == 1 && shown[0].by_rung == Thresholds{} && shown[0].by_direction == Thresholds{};
         int64_t eye_column = cell_at(eye_share.x, side), eye_row = cell_at(eye_share.y, side);
         for (uint32_t j = 0; j < side; ++j)
             for (uint32_t i = 0, row = towards(j, eye_row, side); i < side; ++i) {
                 Place here = place(towards(i, eye_column, side), row);
-                uint32_t by_rung = here.decides_rung(in_tile_px_), by_direction = here.decides_direction();
-                for (const Shown& one : shown)
-                    if (is_drawn(one) && one.by_rung.contains(by_rung) && one.by_direction.contains(by_direction))
-                        draw(here, one.direction);
+                if (is_one && is_drawn(shown[0])) draw(here, shown[0].direction);
+                if (!is_one) draw_one_of(shown, here);
             }
     }
 
   private:
+    void draw_one_of(std::span<const Shown> shown, const Place& here) {
+        uint32_t by_rung = here.decides_rung(in_tile_px_), by_direction = here.decides_direction();
+        for (const Shown& one : shown)
+            if (is_drawn(one) && one.by_rung.contains(by_rung) && one.by_direction.contains(by_direction))
+                draw(here, one.direction);
+    }
     bool is_drawn(const Shown& shown) const {
         Stage stage = field_.ladder().rungs[shown.rung].stage;
         return stage == Stage::texture || stage == Stage::colour;
@@ -80,14 +87,21 @@ class TexelPainter {
     // None where nothing is planted.
     std::optional<uint8_t> tile_at(const Place& place) {
         if (item_.tiles_log2 == 0) return item_.tile;
-        if (!is_known_ || place.i != known_i_ || place.j != known_j_) {
-            is_known_ = true, known_i_ = place.i, known_j_ = place.j;
-            bool is_planted = item_.is_planted_throughout || field_.parts().placement->is_planted(place.i, place.j);
-            known_ = is_planted ? std::optional(field_.parts().tiling->at(place.i, place.j)) : std::nullopt;
+        if (in_tile_px_ == 1) return asked_tile(place);
+        int16_t& known = known_[size_t(place.j - item_.j) << item_.tiles_log2 | size_t(place.i - item_.i)];
+        if (known == kUnknown) {
+            auto tile = asked_tile(place);
+            known = tile ? *tile : kBare;
         }
-        return known_;
+        return known == kBare ? std::nullopt : std::optional(uint8_t(known));
+    }
+    std::optional<uint8_t> asked_tile(const Place& place) const {
+        const FieldParts& parts = field_.parts();
+        if (!item_.is_planted_throughout && !parts.placement->is_planted(place.i, place.j)) return std::nullopt;
+        return parts.tiling->at(place.i, place.j);
     }
 
+    static constexpr int16_t kUnknown = -2, kBare = -1;
     const Eye& eye_;
     const Field& field_;
     const FarColours& far_;
@@ -96,9 +110,7 @@ class TexelPainter {
     Rect rect_;
     double texel_m_ = 0;
     uint32_t in_tile_px_ = 1;
-    bool is_known_ = false;  // the tile asked for last
-    int64_t known_i_ = 0, known_j_ = 0;
-    std::optional<uint8_t> known_;
+    std::vector<int16_t> known_;  // tiles of a block of which there are several texels each
 };
 
 // The texels of a tile that images of it give way to.

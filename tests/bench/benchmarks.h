@@ -16,6 +16,8 @@ void add_bake_mesh(uint32_t side);
 void add_caveclod(uint32_t side);
 // side: of a tiling of side * side tiles.
 void add_wang(uint32_t side);
+// small: images an eighth as wide.
+void add_warp(bool small);
 // side_px: of the pictures.
 void add_numbers(uint32_t side_px);
 

@@ -46,6 +46,7 @@ void add_all(const Args& args) {
     bench::add_bake_mesh(args.small ? 32 : 160);
     bench::add_caveclod(args.small ? 32 : 160);
     bench::add_wang(args.small ? 300 : 10000);
+    bench::add_warp(args.small);
     for (uint32_t side_px : args.small ? std::vector<uint32_t>{64} : std::vector<uint32_t>{512, 1024})
         bench::add_numbers(side_px);
 }
