@@ -273,8 +273,11 @@ TEST(BakeWangImages, RefusesOptionsThatMakeNoSenseInOneLine) {
     expect(2, {"--farthest-m 30", "--nearest-m 40"}, {"--nearest-m", "40"});
     expect(2, {"--level-ratio", "nan"}, {"--level-ratio", "nan"});
     expect(2, {"--unseen"}, {"--unseen", "0"});
-    for (const char* side : {"0", "33", "512", "-1", "x", "32x"})
-        expect(2, {std::string("--textures ") + side, "1, 2, 4 .. 256"}, {"--textures", side});
+    for (const char* side : {"0", "33", "512", "-1", "x", "32x"}) {
+        Words words = words_of(folder, "a.ovl");
+        words.back() = side;  // of --textures
+        expect_refusal(run(words), 2, "bake-wang-ldi", {std::string("--textures ") + side, "1, 2, 4 .. 256"});
+    }
 }
 
 TEST(BakeWangImages, RefusesTilesThatAreTooNear) {

@@ -77,6 +77,12 @@ void add_light_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--leaf-transmission", args.leaf_transmission, "How much light two-sided surfaces let through")
         ->check(command::number_in(0, 1))
         ->capture_default_str();
+    app.add_option(
+           "--leaves", args.leaves,
+           "trimmed: what of a card with a leaf on it is never solid is cut off before rays are sent, which show the same "
+           "and take less time. whole: it is not")
+        ->check(CLI::IsMember({"trimmed", "whole"}))
+        ->capture_default_str();
     app.add_option("--parts", args.parts, "Folder of the images that are done, until all are (default: OUTPUT.parts)");
     app.add_option("--part", args.part,
                    "K/N: bake the K-th of N parts into the folder of --parts and no file; when all are there, bake without it");
@@ -92,13 +98,15 @@ Result<void> check_reach(const std::string& path, const rays::Mesh& mesh, float 
                      path, reach_m, tight_radius_m);
 }
 
-Result<wang_ldi::Models> read_models(const GroundDone& ground, float transmission) {
+Result<wang_ldi::Models> read_models(const GroundDone& ground, const ImageArgs& args, wang_ldi::TrimReport& trimmed) {
+    wang_ldi::ModelOptions options;
+    options.leaf_transmission = float(args.leaf_transmission), options.trims_leaves = args.leaves == "trimmed";
     wang_ldi::Models models;
     for (size_t m = 0; m < ground.recipe.files.size(); ++m) {
         const std::string& path = ground.recipe.files[m];
         auto file = mesh::open_mesh(path);
         if (!file) return tl::unexpected(file.error());
-        if (auto added = wang_ldi::add_model(file->mesh, {transmission}, models); !added)
+        if (auto added = wang_ldi::add_model(file->mesh, options, models, &trimmed); !added)
             return tl::unexpected(Error{added.error().exit, path + ": " + added.error().message});
         float tight_radius_m = ground.ground.planting.models[m].tight_radius_m;
         if (auto fits = check_reach(path, models.meshes.back(), tight_radius_m); !fits) return tl::unexpected(fits.error());
@@ -163,11 +171,14 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
 
 Result<wang_ldi::ImageReport> add_images(container::Writer& writer, const GroundDone& ground, const ImageArgs& args,
                                          const wang_ldi::ImageBake& bake, const command::Common& common) {
-    auto models = read_models(ground, float(args.leaf_transmission));
+    wang_ldi::TrimReport leaves;
+    auto models = read_models(ground, args, leaves);
     if (!models) return tl::unexpected(models.error());
     command::Progress progress(common, "sampling");
-    return wang_ldi::bake_images(writer, ground.ground.set, ground.ground.planting, *models, bake,
-                                 [&](double share) { progress.set(share); });
+    auto report = wang_ldi::bake_images(writer, ground.ground.set, ground.ground.planting, *models, bake,
+                                        [&](double share) { progress.set(share); });
+    if (report) report->leaves = leaves;
+    return report;
 }
 
 void add_image_options_in_words(const ImageArgs& args, container::Provenance& provenance) {
@@ -182,6 +193,7 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
         add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
                                args.sun_elevation_deg, args.sun_rays, args.sky_rays));
     add("leaf-transmission", fmt::format("{}", args.leaf_transmission));
+    if (args.leaves != ImageArgs().leaves) add("leaves", args.leaves);
     if (args.has_border_images) add("border-images", "true");
     if (args.ray_memory_bytes != ImageArgs().ray_memory_bytes) add("ray-memory", fmt::format("{}", args.ray_memory_bytes));
 }

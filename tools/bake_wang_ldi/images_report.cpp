@@ -96,6 +96,12 @@ std::string images_json(const wang_ldi::ImageReport& report) {
     json["images_above_goal"] = report.above_goal;
     json["taken_from_parts"] = report.taken_from_parts, json["baked"] = report.made, json["seconds"] = report.seconds;
     if (report.texture_side_px > 0) json["textures"] = textures_json(report);
+    if (report.leaves.masked_before > 0)
+        json["leaves"] = {{"masked_triangles", report.leaves.masked_before},
+                          {"trimmed_to", report.leaves.masked_after},
+                          {"without_holes", report.leaves.solid},
+                          {"area_m2", report.leaves.area_before_m2},
+                          {"trimmed_area_m2", report.leaves.area_after_m2}};
     for (uint32_t k = 0; k < report.set.levels.size(); ++k) {
         const wang_ldi::Level& level = report.set.levels[k];
         Total of_level;

@@ -33,7 +33,7 @@ mesh::Mesh leaf_and_bark() {
 
 TEST(Models, KeepHolesColoursAndLeaves) {
     Models models;
-    auto added = add_model(leaf_and_bark(), {0.25f}, models);
+    auto added = add_model(leaf_and_bark(), {0.25f, false}, models);
     ASSERT_TRUE(added) << added.error().message;
     const rays::Mesh& shape = models.meshes[0];
     EXPECT_EQ(shape.positions_m[1], glm::vec3(11, 0, 0));

@@ -11,6 +11,7 @@
 #include "tools/bake/wang_ldi/levels.h"
 #include "tools/bake/wang_ldi/shards.h"
 #include "tools/bake/wang_ldi/textures.h"
+#include "tools/bake/wang_ldi/trim.h"
 
 namespace overlook::wang_ldi {
 
@@ -56,7 +57,8 @@ struct ImageReport {
     uint64_t taken_from_parts = 0;  // those that were there
     uint64_t above_goal = 0;        // of rows: those with more unseen than was asked for, after the most rays that are shot
     double seconds = 0;
-    Shards parts;  // to be removed (remove_all(part_count)) when the file is committed
+    TrimReport leaves;  // of the models, filled in by whoever read them
+    Shards parts;       // to be removed (remove_all(part_count)) when the file is committed
     uint64_t part_count = 0;
 };
 

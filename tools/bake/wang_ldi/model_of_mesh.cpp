@@ -13,7 +13,7 @@ namespace {
 class Maker {
   public:
     Maker(const mesh::Mesh& mesh, const ModelOptions& options) : mesh_(mesh), options_(options) {}
-    Result<void> run(Models& models);
+    Result<void> run(Models& models, TrimReport* trimmed);
 
   private:
     void add_triangles();
@@ -110,11 +110,15 @@ void Maker::add_masks() {
     for (uint32_t surface : mesh_.face_surface) shape_.masks_of.push_back(mask_of[surface]);
 }
 
-Result<void> Maker::run(Models& models) {
+Result<void> Maker::run(Models& models, TrimReport* trimmed) {
     add_triangles();
     if (auto added = add_pictures(); !added) return added;
     add_looks();
     add_masks();
+    if (options_.trims_leaves) {
+        TrimReport report = trim_to_masks(shape_, skin_);
+        if (trimmed) trimmed->add(report);
+    }
     models.meshes.push_back(std::move(shape_));
     models.skins.push_back(std::move(skin_));
     return {};
@@ -122,8 +126,8 @@ Result<void> Maker::run(Models& models) {
 
 }  // namespace
 
-Result<void> add_model(const mesh::Mesh& mesh, const ModelOptions& options, Models& models) {
-    return Maker(mesh, options).run(models);
+Result<void> add_model(const mesh::Mesh& mesh, const ModelOptions& options, Models& models, TrimReport* trimmed) {
+    return Maker(mesh, options).run(models, trimmed);
 }
 
 }  // namespace overlook::wang_ldi
