@@ -29,13 +29,14 @@ inline Placement placed(const glm::dvec3& at_m, double scale = 1) {
     return placement;
 }
 
-// Chosen by distance: level 1 from 10 m on, level 2 from 20 m on, ...
+// Chosen by distance: level 1 from 10 m on, level 2 from 20 m on, ... An eye that is put elsewhere begins changes of level.
 inline FrameOptions by_distance(Variant variant) {
     FrameOptions options = defaults_of(variant);
     options.select.criterion = Criterion::distance;
     options.select.distance_m = 10;
     options.select.refine_share = 1;
     options.select.coarsen_share = 0.99;
+    options.remedies.knows_cuts = false;
     return options;
 }
 

@@ -6,6 +6,7 @@
 
 #include "runtime/discrete/draw_frames.h"
 #include "runtime/view/error_budget.h"
+#include "tools/measure/honesty/chain_honesty.h"
 
 namespace overlook::measure {
 namespace {
@@ -43,6 +44,7 @@ class Chain : public Method {
         frames_->decide(camera, double(frame - last_frame_) * world_.step_s, double(frame) * world_.step_s);
         if (controller_) controller_->frame_done(double(frames_->counts().triangle_count));
         last_frame_ = frame;
+        camera_ = camera;
     }
 
     // Within a budget the error asked for goes up and down with what frames cost.
@@ -75,6 +77,13 @@ class Chain : public Method {
         return counters;
     }
 
+    std::optional<Promises> promises() override {
+        while (honesties_.size() < world_.chains.size()) honesties_.emplace_back(*world_.chains[honesties_.size()].chain);
+        Promises promises;
+        for (size_t i = 0; i < honesties_.size(); ++i) honesties_[i].append_to(promises, frames_->director(i), camera_);
+        return promises;
+    }
+
   private:
     void ask_for(double error_px) {
         discrete::FrameOptions options = asked_;
@@ -89,6 +98,8 @@ class Chain : public Method {
     std::optional<view::ErrorController> controller_;  // within a budget
     std::unique_ptr<discrete::FrameDrawer> frames_;
     uint32_t last_frame_ = 0;
+    view::Camera camera_;
+    std::vector<ChainHonesty> honesties_;  // of each chain, when they were asked for
 };
 
 }  // namespace

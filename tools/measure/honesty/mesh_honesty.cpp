@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "formats/parallel.h"
+#include "tools/measure/honesty/screen.h"
 
 namespace overlook::measure {
 namespace {
@@ -25,29 +26,6 @@ std::vector<glm::dvec3> finest_corners_m(const caveclod::Hierarchy& hierarchy) {
     }
     return corners;
 }
-
-// Projects places of one camera.
-class Screen {
-  public:
-    explicit Screen(const view::Camera& camera)
-        : camera_(camera), axes_(view::axes_of(camera)), focal_px_(view::focal_px(camera)) {}
-
-    // From the picture's middle; nothing before the near plane.
-    std::optional<glm::dvec2> at(const glm::dvec3& place_m) const {
-        glm::dvec3 from_eye = place_m - camera_.position_m;
-        double depth_m = glm::dot(from_eye, axes_.forward);
-        if (depth_m < camera_.near_m) return std::nullopt;
-        return glm::dvec2(glm::dot(from_eye, axes_.right), glm::dot(from_eye, axes_.up)) * (focal_px_ / depth_m);
-    }
-    bool is_in_frame(const glm::dvec2& at_px) const {
-        return std::abs(at_px.x) <= camera_.width_px / 2.0 && std::abs(at_px.y) <= camera_.height_px / 2.0;
-    }
-
-  private:
-    view::Camera camera_;
-    view::Axes axes_;
-    double focal_px_;
-};
 
 // The greatest displacement of those of the places that are in the frame; below 0 if none is.
 double most_px(const std::vector<glm::dvec3>& places_m, const NearestPoint& nearest, const Screen& screen) {

@@ -9,7 +9,7 @@
 namespace overlook::measure::paper::fsi {
 namespace {
 
-constexpr std::array<Variation, 17> kVariations = {{
+constexpr std::array<Variation, 18> kVariations = {{
     {"switch", kSwitch, "", "At once.", false},
     {"fsi:paper", kPaper, "", "As printed.", false},
     {"fsi:paper@reproject=0", kPaper, "@reproject=0", "The older buffer is looked up at the same pixel.", false},
@@ -27,6 +27,7 @@ constexpr std::array<Variation, 17> kVariations = {{
     {"fsi@suit-grain=0", kOwn, "@suit-grain=0", "The visibility's grain is as it was baked, however far the thing.", true},
     {"fsi@softness=0", kOwn, "@softness=0", "A place appears at once, not over half of the ramp.", true},
     {"fsi@copy-rest=0", kOwn, "@copy-rest=0", "Two frames are put together in all of the picture, which costs time alone.", true},
+    {"fsi@know-cuts=0", kOwn, "@know-cuts=0", "After a cut levels take their time, which no film here has: holes of S04.", true},
     {"fsi@long-ramps=0", kOwn, "@long-ramps=0", "One level's ramp after the other's, as in the paper.", true},
 }};
 
