@@ -23,8 +23,8 @@ void planting_lines(const wang_ldi::FrameCounts& planting, bool shows_rings) {
     if (planting.images.stand_ins + planting.images.missing > 0)
         text_line(fmt::format("       {} of {} images have others in their place, {} are missing", planting.images.stand_ins,
                               planting.images.images, planting.images.missing));
-    if (planting.field.outside_cell > 0)
-        text_line(fmt::format("       outside the cell: {} tiles are seen from where they were not sampled for",
+    if (planting.is_eye_outside)
+        text_line(fmt::format("       outside the cell: images were not sampled for eyes so high above the ground ({} tiles)",
                               planting.field.outside_cell));
     if (shows_rings) text_line("hues: levels, from near to far; dark and light: directions");
 }

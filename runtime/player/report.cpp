@@ -34,6 +34,7 @@ void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
     const wang_ldi::FieldCounts& field = planting.field;
     json["tiles"] = field.tiles_listed;
     json["far_blocks"] = field.blocks_listed;
+    json["eye_outside_cell"] = planting.is_eye_outside;
     json["outside_cell_tiles"] = field.outside_cell;
     json["cut_tiles"] = field.cut_tiles;
     json["displaced_tiles"] = field.displaced_tiles;
@@ -44,6 +45,7 @@ void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
     json["samples_listed"] = field.samples;
     json["samples_warped"] = planting.warp.samples;
     json["samples_drawn"] = planting.warp.samples_drawn;
+    json["holes_filled_px"] = planting.holes_filled;
     json["pixels_written"] = planting.warp.pixels_written;
     json["list_ms"] = planting.list_ms;
     json["warp_ms"] = planting.warp_ms;
@@ -161,9 +163,10 @@ std::string planting_text(const std::vector<FrameRecord>& frames) {
         return uint64_t(
             percentile(values_of(frames, [&](const FrameRecord& frame) { return double(value(*frame.planting)); }), 1));
     };
-    uint64_t outside = most([](const Counts& c) { return c.field.outside_cell; });
+    uint64_t outside = uint64_t(
+        std::count_if(frames.begin(), frames.end(), [](const FrameRecord& frame) { return frame.planting->is_eye_outside; }));
     uint64_t lacking = most([](const Counts& c) { return c.images.stand_ins + c.images.missing; });
-    if (outside > 0) text += fmt::format(", up to {} tiles from where they were not sampled for", with_commas(outside));
+    if (outside > 0) text += fmt::format(", {} from heights that images were not sampled for", with_commas(outside));
     if (lacking > 0) text += fmt::format(", up to {} images not there yet", with_commas(lacking));
     return text;
 }

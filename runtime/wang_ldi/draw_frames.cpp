@@ -60,7 +60,10 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const PlantedField& plant
 
     const ImageSet& set = planted.images().set();
     const ImageStore& images = *made->store_;
-    made->far_ = FarColours::of(set, [&](uint64_t index) { return images.at(index); });
+    made->far_ = FarColours::of(set, [&](uint64_t index) {
+        const StoredImage* image = images.at(index);
+        return image == nullptr ? nullptr : &image->ldi;
+    });
     Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, 1));
     if (!field) return tl::unexpected(field.error());
     return made;
@@ -114,6 +117,9 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     counts.terrain_tested_count = slot.cut.tested_count;
     counts.predicted_error_px = slot.cut.predicted_error_px;
     counts.threads = thread_count();
+    const Cell& cell = planted_.images().set().cell;
+    double above_m = slot.camera.position_m.z - planted_.ground().height_m(glm::dvec2(slot.camera.position_m));
+    counts.is_eye_outside = !(above_m >= cell.eye_low_m && above_m <= cell.eye_high_m);
     return {};
 }
 
@@ -149,10 +155,7 @@ Result<void> FrameDrawer::list(Slot& slot, double dt_s) {
     } while (streaming_.waits && !store_->is_settled());
     slot.counts.stream = store_->counts();
     slot.counts.stream.uploaded_bytes = streamed_bytes;
-    if (options_.shows_rings) {
-        auto image_at = [&](uint64_t index) { return store_->at(index); };
-        rings_.take(*slot.field, slot.list, image_at);
-    }
+    if (options_.shows_rings) rings_.take(*slot.field, slot.list, *store_);
     return {};
 }
 
@@ -167,12 +170,31 @@ void FrameDrawer::look_ahead(Slot& slot, double dt_s) {
     store_->look_ahead(*slot.field, ahead_);
 }
 
+const StoredImage* FrameDrawer::image_at(uint64_t index) const {
+    return options_.shows_rings ? rings_.at(index) : store_->at(index);
+}
+
 void FrameDrawer::warp(Slot& slot) {
     Clock clock;
-    slot.picture.clear(slot.camera.width_px, slot.camera.height_px);
-    Hiding hiding = options_.variant == Variant::paper ? Hiding::by_order : Hiding::by_depth;
-    ImageAt image_at = [this](uint64_t index) { return options_.shows_rings ? rings_.at(index) : store_->at(index); };
-    slot.counts.warp = warp_field(slot.camera, *slot.field, slot.list, image_at, hiding, slot.picture, &far_);
+    bool is_paper = options_.variant == Variant::paper;
+    if (is_paper || options_.is_exact) {
+        slot.picture.clear(slot.camera.width_px, slot.camera.height_px);
+        ImageAt at = [this](uint64_t index) {
+            const StoredImage* image = image_at(index);
+            return image == nullptr ? nullptr : &image->ldi;
+        };
+        Hiding hiding = is_paper ? Hiding::by_order : Hiding::by_depth;
+        slot.counts.warp = warp_field(slot.camera, *slot.field, slot.list, at, hiding, slot.picture, &far_);
+    } else {
+        PreparedAt at = [this](uint64_t index) {
+            const StoredImage* image = image_at(index);
+            return image == nullptr ? nullptr : &image->prepared;
+        };
+        FastOptions fast;
+        fast.fills_holes = options_.fills_holes;
+        slot.counts.warp = fast_.warp(slot.camera, *slot.field, slot.list, at, fast, slot.picture, &far_);
+        slot.counts.holes_filled = fast_.holes_filled();
+    }
     slot.counts.warp_ms = clock.elapsed_ms();
 }
 

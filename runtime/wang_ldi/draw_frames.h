@@ -12,6 +12,7 @@
 #include "runtime/terrain/refine.h"
 #include "runtime/wang_ldi/draw_composite.h"
 #include "runtime/wang_ldi/draw_plants.h"
+#include "runtime/wang_ldi/fast_warp.h"
 #include "runtime/wang_ldi/image_store.h"
 #include "runtime/wang_ldi/planted_field.h"
 #include "runtime/wang_ldi/rings.h"
@@ -49,6 +50,8 @@ struct FrameCounts {
     FieldCounts field;
     PlantCounts plants;  // drawn as geometry
     WarpCounts warp;
+    uint64_t holes_filled = 0;    // pixels
+    bool is_eye_outside = false;  // not as high above the ground below it as images were sampled for
     ImageStore::Taken images;
     stream::Counts stream;
     uint32_t latency_frames = 0;  // so many frames ago the picture's camera was given
@@ -98,6 +101,7 @@ class FrameDrawer {
     FrameOptions field_options() const;
     void look_ahead(Slot& slot, double dt_s);
     void warp(Slot& slot);
+    const StoredImage* image_at(uint64_t index) const;
     void wait();
 
     const PlantedField& planted_;
@@ -108,6 +112,7 @@ class FrameDrawer {
     std::optional<Composite> composite_;
     FarColours far_;
     RingImages rings_;
+    FastWarp fast_;
     FieldList ahead_;
     std::optional<view::Camera> before_;  // the camera of the frame before
     std::vector<Error> faults_;

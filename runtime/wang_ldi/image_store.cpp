@@ -23,14 +23,23 @@ constexpr float kAhead = 1e-6f;  // of the priority of what is in view
 
 }  // namespace
 
+StoredImage StoredImage::of(Ldi ldi) {
+    StoredImage made;
+    made.prepared = PreparedLdi::of(ldi), made.ldi = std::move(ldi);
+    return made;
+}
+
 uint64_t bytes_of(const ImageSet& set, uint32_t level, const Entry& entry) {
-    uint64_t side = set.levels[level].side_px, samples = entry.sample_count;
+    uint64_t side = set.levels[level].side_px, samples = entry.sample_count, padded = samples + PreparedLdi::kPadding;
     uint64_t each = sizeof(uint16_t) + sizeof(uint8_t) + (set.has_normals ? 2 : 0) + (set.has_splats ? 1 : 0);
-    return sizeof(Ldi) + sizeof(uint32_t) * (side * side + 1) + each * samples + 3 * uint64_t(entry.colour_count);
+    uint64_t ldi = sizeof(uint32_t) * (side * side + 1) + each * samples + 3 * uint64_t(entry.colour_count);
+    bool has_splats = set.has_splats && samples > 0;
+    uint64_t prepared = 4 * (side * side + 1 + padded + entry.colour_count) + padded + (has_splats ? padded : 0) + 4 * side;
+    return sizeof(StoredImage) + ldi + prepared;
 }
 
 ImageStore::ImageStore(const ImageReader& images)
-    : images_(&images), decoded_(images.entries().size()), ldis_(images.entries().size()) {}
+    : reader_(&images), decoded_(images.entries().size()), images_(images.entries().size()) {}
 
 Result<std::unique_ptr<ImageStore>> ImageStore::open(const std::string& name, const ImageReader& images,
                                                      const stream::Settings& settings) {
@@ -47,23 +56,23 @@ Result<std::unique_ptr<ImageStore>> ImageStore::open(const std::string& name, co
     source.keeps_blocks = true;
     ImageStore* store = made.get();
     source.decode = [store](uint32_t block, std::span<const std::span<const std::byte>>) -> Result<stream::Bytes> {
-        Result<Ldi> ldi = store->images_->read(block);
+        Result<Ldi> ldi = store->reader_->read(block);
         if (!ldi) return tl::unexpected(ldi.error());
-        store->decoded_[block] = std::make_unique<Ldi>(std::move(*ldi));
+        store->decoded_[block] = std::make_unique<StoredImage>(StoredImage::of(std::move(*ldi)));
         return stream::Bytes();
     };
     Result<std::unique_ptr<stream::Stream>> stream = stream::Stream::open(name, std::move(source), settings);
     if (!stream) return tl::unexpected(stream.error());
     made->stream_ = std::move(*stream);
     if (Result<void> kept = made->stream_->keep(coarsest); !kept) return tl::unexpected(kept.error());
-    for (uint32_t block : coarsest) made->ldis_[block] = std::move(made->decoded_[block]);
+    for (uint32_t block : coarsest) made->images_[block] = std::move(made->decoded_[block]);
     return made;
 }
 
 const std::vector<Error>& ImageStore::begin_frame() {
     const stream::Stream::Changes& changes = stream_->begin_frame();
-    for (uint32_t block : changes.dropped) ldis_[block].reset();
-    for (uint32_t block : changes.arrived) ldis_[block] = std::move(decoded_[block]);
+    for (uint32_t block : changes.dropped) images_[block].reset();
+    for (uint32_t block : changes.arrived) images_[block] = std::move(decoded_[block]);
     faults_ = changes.faults;
     return faults_;
 }
@@ -90,7 +99,7 @@ ImageStore::Taken ImageStore::take(const Field& field, FieldList& list) {
 
 // The finer level and the coarser ones of its direction, then the same of ever farther directions.
 bool ImageStore::stand_in(const Field& field, Item& item, Shown& shown) {
-    const ImageSet& set = images_->set();
+    const ImageSet& set = reader_->set();
     int64_t level = field.ladder().rungs[shown.rung].level, levels = int64_t(set.levels.size());
     int64_t directions = set.direction_count;
     for (int64_t turn = 0; turn <= directions / 2; ++turn) {

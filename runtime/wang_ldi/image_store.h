@@ -10,10 +10,18 @@
 #include "formats/wang_ldi.h"
 #include "runtime/stream/stream.h"
 #include "runtime/wang_ldi/field.h"
+#include "runtime/wang_ldi/prepared_ldi.h"
 
 namespace overlook::wang_ldi {
 
-// What an image takes in memory, exactly.
+// An image as it is kept: for the exact warper, and for the fast one.
+struct StoredImage {
+    Ldi ldi;
+    PreparedLdi prepared;
+
+    static StoredImage of(Ldi ldi);
+};
+// What it takes in memory, exactly.
 uint64_t bytes_of(const ImageSet& set, uint32_t level, const Entry& entry);
 
 // All calls by one thread, that of the frames: begin_frame, take, perhaps look_ahead, end_frame; then at() by any until the next
@@ -40,7 +48,7 @@ class ImageStore {
     void end_frame();
 
     // Null where it is not there. Any thread.
-    const Ldi* at(uint64_t index) const { return ldis_[size_t(index)].get(); }
+    const StoredImage* at(uint64_t index) const { return images_[size_t(index)].get(); }
     bool is_settled() const { return stream_->is_settled(); }
     const stream::Counts& counts() const { return stream_->counts(); }
     const stream::Settings& settings() const { return stream_->settings(); }
@@ -50,9 +58,9 @@ class ImageStore {
     bool is_there(uint64_t index) const { return stream_->is_resident(uint32_t(index)) && at(index) != nullptr; }
     bool stand_in(const Field& field, Item& item, Shown& shown);
 
-    const ImageReader* images_;
-    std::vector<std::unique_ptr<Ldi>> decoded_;  // by workers, until the frame's thread takes them over
-    std::vector<std::unique_ptr<Ldi>> ldis_;     // [ldi_count]
+    const ImageReader* reader_;
+    std::vector<std::unique_ptr<StoredImage>> decoded_;  // by workers, until the frame's thread takes them over
+    std::vector<std::unique_ptr<StoredImage>> images_;   // [ldi_count]
     std::vector<Error> faults_;
     std::unique_ptr<stream::Stream> stream_;  // last: its workers use the others
 };

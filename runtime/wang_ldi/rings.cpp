@@ -29,18 +29,18 @@ Ldi ring_image(const Ldi& ldi, uint32_t level, uint32_t direction) {
     return image;
 }
 
-void RingImages::take(const Field& field, const FieldList& list, const std::function<const Ldi*(uint64_t index)>& image_at) {
+void RingImages::take(const Field& field, const FieldList& list, const ImageStore& images) {
     for (const Item& item : list.items)
         for (const Shown& shown : list.shown_of(item)) {
             const Rung& rung = field.ladder().rungs[shown.rung];
             if (rung.stage != Stage::ldi) continue;
             uint64_t index = field.image_of(item, shown);
-            const Ldi* ldi = images_.contains(index) ? nullptr : image_at(index);
-            if (ldi != nullptr) images_.emplace(index, ring_image(*ldi, rung.level, shown.direction));
+            const StoredImage* image = images_.contains(index) ? nullptr : images.at(index);
+            if (image != nullptr) images_.emplace(index, StoredImage::of(ring_image(image->ldi, rung.level, shown.direction)));
         }
 }
 
-const Ldi* RingImages::at(uint64_t index) const {
+const StoredImage* RingImages::at(uint64_t index) const {
     auto found = images_.find(index);
     return found == images_.end() ? nullptr : &found->second;
 }

@@ -7,6 +7,7 @@
 
 #include "formats/wang_ldi.h"
 #include "runtime/wang_ldi/field.h"
+#include "runtime/wang_ldi/image_store.h"
 
 namespace overlook::wang_ldi {
 
@@ -18,12 +19,12 @@ std::array<uint8_t, 3> ring_colour(uint32_t level, uint32_t direction);
 class RingImages {
   public:
     // Has ready what a list shows, of the images at hand.
-    void take(const Field& field, const FieldList& list, const std::function<const Ldi*(uint64_t index)>& image_at);
+    void take(const Field& field, const FieldList& list, const ImageStore& images);
     // Null of what take() was not told of. Any thread.
-    const Ldi* at(uint64_t index) const;
+    const StoredImage* at(uint64_t index) const;
 
   private:
-    std::map<uint64_t, Ldi> images_;
+    std::map<uint64_t, StoredImage> images_;
 };
 // One image so.
 Ldi ring_image(const Ldi& ldi, uint32_t level, uint32_t direction);

@@ -11,11 +11,13 @@ constexpr SettingKind kErrorPx{"error-px", 0.001, 10000, kDefaults.error_px};
 constexpr SettingKind kRadiusM{"radius-m", 0, 1e7, kDefaults.radius_m, false, true};
 constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 7> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 9> kOwn = {kErrorPx,
                                              kRadiusM,
                                              SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                              SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
                                              SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
+                                             SettingKind{"exact", 0, 1, 0, true, true, true},
+                                             SettingKind{"fill", 0, 1, 1, true, true, true},
                                              kPipelined,
                                              kRings};
 constexpr std::array<SettingKind, 4> kPaper = {kErrorPx, kRadiusM, kPipelined, kRings};
@@ -44,6 +46,10 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.direction_fade = value;
     } else if (name == "geometry-m") {
         options.geometry_m = value;
+    } else if (name == "exact") {
+        options.is_exact = value != 0;
+    } else if (name == "fill") {
+        options.fills_holes = value != 0;
     } else if (name == "pipelined") {
         options.is_pipelined = value != 0;
     } else {

@@ -21,6 +21,8 @@ struct FrameOptions {
     double fade = 0.05;           // of own: LadderOptions::fade_share
     double direction_fade = 0.1;  // of own: FieldOptions::direction_fade_share
     double geometry_m = 0;        // of own: nearer tiles are drawn as geometry, where there are models; 0: none
+    bool is_exact = false;        // of own: warped as the paper's are, sample by sample, slowly
+    bool fills_holes = true;      // of own, unless it is exact: small ones, as fill_holes
     bool is_pipelined = false;    // the warp of the next frame overlaps drawing this one, which is shown a frame late
     bool shows_rings = false;     // levels and directions by colours (the paper's figure 7)
 

@@ -16,13 +16,17 @@ inline ImageSet mound_images() {
     return set;
 }
 
-// with_images: false = the planting alone.
-inline void write_mounds(const std::string& path, bool with_images = true) {
+// with_images: false = the planting alone. with_plant: besides, one plant in the middle of every tile.
+inline void write_mounds(const std::string& path, bool with_images = true, bool with_plant = false) {
     PlantedTiles tiles;
     tiles.set = complete_set();
     ImageSet images = mound_images();
     tiles.planting.tile_size_m = images.tile_m;
     tiles.planting.tiles.resize(tiles.set.tiles.size());
+    if (with_plant) {
+        tiles.planting.models = {{"plant", 0.3f, 0.4f}};
+        for (auto& tile : tiles.planting.tiles) tile = {{0, 1, 1, 0, 0.5f, Owner::interior}};
+    }
     auto file = container::Writer::create(path, kKind);
     ASSERT_TRUE(file) << file.error().message;
     auto written = write(*file, tiles);

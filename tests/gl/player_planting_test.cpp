@@ -52,11 +52,14 @@ TEST_F(PlantingPlayer, DrawsABakedPlantingOnAPlain) {
 
 TEST_F(PlantingPlayer, SaysWhereImagesWereNotSampledFor) {
     ASSERT_EQ(play(drawn(mounds_, "in.png") + "--camera 0,0,1.7,0,-4"), 0) << output_;
+    EXPECT_EQ(report()["frames"][0]["eye_outside_cell"], false);
+    EXPECT_EQ(output_.find("not sampled for"), std::string::npos) << output_;
     int inside = report()["frames"][0]["outside_cell_tiles"], tiles = report()["frames"][0]["tiles"];
     EXPECT_LT(inside, tiles / 4);  // those at the eye's feet, and behind the farthest
     ASSERT_EQ(play(drawn(mounds_, "above.png") + "--camera 0,0,9,0,-30"), 0) << output_;
+    EXPECT_EQ(report()["frames"][0]["eye_outside_cell"], true);
     EXPECT_GT(report()["frames"][0]["outside_cell_tiles"].get<int>(), 4 * inside);
-    EXPECT_NE(output_.find("tiles from where they were not sampled for"), std::string::npos) << output_;
+    EXPECT_NE(output_.find("1 from heights that images were not sampled for"), std::string::npos) << output_;
 }
 
 TEST_F(PlantingPlayer, PlantsATerrainWhereTheSceneSays) {

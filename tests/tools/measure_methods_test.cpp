@@ -98,8 +98,8 @@ TEST(Methods, AreMeasuredOnceHoweverOftenAskedFor) {
 
 TEST(Methods, OfAWrongNameAreRefusedWithTheNearest) {
     EXPECT_EQ(refusal_of({"terain"}, {}),
-              "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, caveclod, discrete, full)");
-    EXPECT_EQ(refusal_of({"xyzzyxyzzy"}, {}), "--method xyzzyxyzzy: there is no such method (known: terrain, lod-sprite, caveclod, discrete, full)");
+              "--method terain: there is no such method; did you mean terrain? (known: terrain, lod-sprite, caveclod, discrete, wang-ldi, full)");
+    EXPECT_EQ(refusal_of({"xyzzyxyzzy"}, {}), "--method xyzzyxyzzy: there is no such method (known: terrain, lod-sprite, caveclod, discrete, wang-ldi, full)");
     EXPECT_EQ(refusal_of({""}, {}).substr(0, 31), "--method : there is no such met");
     EXPECT_EQ(refusal_of({"terrain:soft"}, {}), "--method terrain:soft: terrain has no such variant");
     EXPECT_EQ(refusal_of({"terrain:"}, {}), "--method terrain:: terrain has no such variant");

@@ -78,6 +78,7 @@ TEST(FramesTable, LeavesEmptyWhatWasNotTaken) {
 TEST(FramesTable, NamesTheUnitOfEveryNumberThatHasOne) {
     static const std::regex kCounts(
         "triangles|key_triangles|key_pixels|vertex_references|draw_calls|tested|events|transitions|operations|wrong_corners|luma_difference|"
+        "samples_warped|tiles|outside_tiles|missing_images|"
         "g_max|g_median|g_above");
     for (const Figure& one : figures()) {
         std::string name(one.name);

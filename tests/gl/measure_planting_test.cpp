@@ -1,0 +1,108 @@
+// Planted ground, measured: beside its own plants, with counters that repeat.
+#include "formats/discrete.h"
+#include "tests/formats/scratch_folder.h"
+#include "tests/gl/fixture.h"
+#include "tests/gl/planting_file.h"
+#include "tests/runtime/discrete/chains.h"
+#include "tools/measure/methods.h"
+#include "tools/measure/run.h"
+
+namespace overlook::measure {
+namespace {
+
+class MeasuredPlanting : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        std::string reason;
+        context_ = test::software_context(reason);
+        if (!context_) GTEST_SKIP() << "no software renderer: " << reason;
+        wang_ldi::write_mounds(folder_ / "mounds.ovl", true, true);
+        auto writer = container::Writer::create(folder_ / "plant.ovl", discrete::kKind);
+        ASSERT_TRUE(writer);
+        ASSERT_TRUE(discrete::write(*writer, discrete::made::simple_chain()));
+        ASSERT_TRUE(writer->add_provenance({"test", "0", {}, {}}));
+        ASSERT_TRUE(writer->commit());
+    }
+    Result<World> world_of(const std::string& planting) {
+        std::string text = R"({"version": 1, "layers": [{"asset": "mounds.ovl", "method": "wang-ldi")" + planting + "}]}";
+        EXPECT_TRUE(write_file(folder_ / "scene.json", std::string_view(text)));
+        return read_world(folder_ / "scene.json");
+    }
+    static std::vector<view::Camera> walk(World& world, int frames) {
+        std::vector<view::Camera> cameras;
+        for (int frame = 0; frame < frames; ++frame) {
+            view::Camera camera = wang_ldi::head_camera({0.7, 0.9 + 0.4 * frame, 1.7}, 12);
+            camera.width_px = 96, camera.height_px = 64;
+            cameras.push_back(world.local(camera));
+        }
+        return cameras;
+    }
+
+    ScratchFolder folder_;
+    std::optional<gl::Context> context_;
+};
+
+TEST_F(MeasuredPlanting, StandsBesideItsOwnPlantsWithCountersThatRepeat) {
+    auto world = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_TRUE(world) << world.error().message;
+    ASSERT_TRUE(upload(*world));
+    Course course;
+    for (const char* method : {"wang-ldi@samples=1", "wang-ldi:paper@samples=1", "wang-ldi@samples=1@exact=1@fill=0"})
+        course.specs.push_back(*parse_method(method));
+    add_floors(course.specs);
+    course.cameras = walk(*world, 3);
+    ASSERT_TRUE(check_draws(course.specs, *world));
+    gl::Renderer renderer = context_->renderer();
+    auto first = run_course(*world, course, renderer, "", [](double) {});
+    auto again = run_course(*world, course, renderer, "", [](double) {});
+    ASSERT_TRUE(first && again);
+    ASSERT_EQ(first->runs.size(), 4u);
+    for (size_t run = 0; run < 4; ++run)
+        for (size_t frame = 0; frame < 3; ++frame) {
+            const FrameRecord &one = first->runs[run].frames[frame], &other = again->runs[run].frames[frame];
+            EXPECT_TRUE(one.counters == other.counters);
+            EXPECT_EQ(one.numbers.w, other.numbers.w);
+            bool is_planting = run < 3;
+            EXPECT_EQ(one.counters.sample_count > 0, is_planting);
+            EXPECT_EQ(one.counters.tile_count > 10, is_planting);
+            EXPECT_EQ(one.counters.missing_count, 0u);
+        }
+    // The floor draws the plants: it is nearer to them than pictures of mounds are.
+    double floor_e = *first->runs[3].frames[0].numbers.e_mean;
+    for (size_t run = 0; run < 3; ++run) EXPECT_GT(*first->runs[run].frames[0].numbers.e_mean, 2 * floor_e);
+    EXPECT_GT(first->runs[3].frames[0].counters.triangle_count, first->runs[0].frames[0].counters.triangle_count + 1000);
+}
+
+TEST_F(MeasuredPlanting, DrawsNearTilesAsGeometryWhereItIsAsked) {
+    auto world = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_TRUE(world) << world.error().message;
+    ASSERT_TRUE(upload(*world));
+    auto triangles_of = [&](const char* method) {
+        auto made = make_method(*parse_method(method), *world);
+        auto target = gl::Target::make(96, 64, 1);
+        EXPECT_TRUE(target);
+        made->decide(walk(*world, 1).front(), 0);
+        return made->draw(*target);
+    };
+    Counters images = triangles_of("wang-ldi@samples=1"), near = triangles_of("wang-ldi@samples=1@geometry-m=6");
+    EXPECT_GT(near.triangle_count, images.triangle_count + 100);
+    EXPECT_LT(near.sample_count, images.sample_count);
+}
+
+TEST_F(MeasuredPlanting, NeedsItsModels) {
+    auto world = world_of("");
+    ASSERT_FALSE(world);
+    EXPECT_TRUE(world.error().message.ends_with("mounds.ovl plants; they are chains of levels (bake-lod discrete)"))
+        << world.error().message;
+    auto two = world_of(R"(, "planting": {"models": ["plant.ovl", "plant.ovl"]})");
+    ASSERT_FALSE(two);
+    EXPECT_NE(two.error().message.find("names 2 models, and "), std::string::npos) << two.error().message;
+    auto one = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_TRUE(one) << one.error().message;
+    auto refused = check_draws(std::vector<MethodSpec>{*parse_method("terrain")}, *one);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, "--method terrain: it draws terrains, and scene.json holds a planting");
+}
+
+}  // namespace
+}  // namespace overlook::measure
