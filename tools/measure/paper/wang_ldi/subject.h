@@ -18,7 +18,7 @@ namespace overlook::measure::paper::wang {
 struct Bake {
     std::string path;
     std::unique_ptr<container::Reader> file;  // the images refer to it
-    wang_ldi::Ground ground;
+    wang_ldi::PlantedTiles ground;
     std::optional<wang_ldi::ImageReader> opened;
 
     const wang_ldi::ImageReader& images() const { return *opened; }
