@@ -70,8 +70,8 @@ struct Sitting {
         warp(camera, set, std::span(&tile, 1), Hiding::by_order, drawn);
     }
     // Images of one tile among others, in any order.
-    void see_at(const ImageSet& set, const Ldi& ldi, uint32_t level, const glm::dvec2& place_m) {
-        Drawn tile{&ldi, level, {place_m, 0}, glm::dvec2(0), 1};
+    void see_at(const ImageSet& set, const Ldi& ldi, uint32_t level, const glm::dvec2& place_m, double splat_scale = 1) {
+        Drawn tile{&ldi, level, {place_m, 0}, glm::dvec2(0), float(splat_scale)};
         warp(camera, set, std::span(&tile, 1), Hiding::by_depth, drawn);
     }
 };
@@ -149,13 +149,15 @@ Result<ImageRgb8> tiles_from_above(const ImageReader& images, const PlantedTiles
     camera.position_m = {set.tile_m / 2, set.tile_m / 2, height_m}, camera.pitch_deg = -90;
     camera.width_px = camera.height_px = 2 * options.width_px;
     camera.fov_y_deg = 2 * std::atan(span_m / 2 / (height_m - set.high_m)) * 180 / std::numbers::pi;
+    // Of a pixel of the level; splats are rounded up to whole pixels, or gaps would run between parallel rays.
+    double wide_px = 2 * options.width_px / span_m * set.tile_m / set.levels[level].side_px;
     std::vector<Around> around = surroundings(ground.set, count, options.seed);
     std::vector<Sitting> sittings(count, Sitting(camera));
     auto seen = visit_images(images, level, [&](uint32_t tile, const Ldi& ldi) {
         for (uint32_t t = 0; t < count; ++t)
             for (size_t k = 0; k < 9; ++k) {
                 if (around[t][k] != int(tile)) continue;
-                sittings[t].see_at(set, ldi, level, place_of(k, set.tile_m));
+                sittings[t].see_at(set, ldi, level, place_of(k, set.tile_m), std::ceil(wide_px) / wide_px);
             }
     });
     if (!seen) return tl::unexpected(seen.error());

@@ -23,8 +23,8 @@ TEST(Pipelines, SayTheirStepsInOrderWithoutTakingThem) {
 }
 
 TEST(Pipelines, CountAsManyStepsAsTheySay) {
-    for (const char* pipeline :
-         {"quickstart", "test", "bench", "charts", "stability", "lod-sprite", "caveclod", "fsi", "proofs", "peers", "nightly"}) {
+    for (const char* pipeline : {"quickstart", "test", "bench", "charts", "stability", "lod-sprite", "caveclod", "fsi",
+                                 "wang-ldi", "proofs", "peers", "nightly"}) {
         auto ran = shell::run(std::string("pipelines/") + pipeline + " --dry-run | tail -n 1", kRoot);
         int index = 0, count = 0;
         ASSERT_EQ(std::sscanf(ran.output.c_str(), "== %d/%d", &index, &count), 2) << pipeline << ": " << ran.output;
@@ -43,8 +43,8 @@ TEST(Pipelines, BenchBuildsWithItsPackageBeforeItMeasures) {
 }
 
 TEST(Pipelines, RefuseAnOptionTheyDoNotKnow) {
-    for (const char* pipeline : {"quickstart", "bench", "charts", "stability", "lod-sprite", "caveclod", "fsi", "proofs", "peers",
-                                 "nightly", "set-up"}) {
+    for (const char* pipeline : {"quickstart", "bench", "charts", "stability", "lod-sprite", "caveclod", "fsi", "wang-ldi",
+                                 "proofs", "peers", "nightly", "set-up"}) {
         auto ran = shell::run(std::string("pipelines/") + pipeline + " --wrong", kRoot);
         EXPECT_EQ(ran.exit, 2) << pipeline << ": " << ran.output;
         EXPECT_TRUE(contains(ran.output, "--wrong is not an option")) << ran.output;
@@ -83,7 +83,7 @@ TEST(Pipelines, BareMakeSaysWhatThereIs) {
     auto ran = shell::run("make -C pipelines", kRoot);
     EXPECT_EQ(ran.exit, 0) << ran.output;
     for (const char* target : {"quickstart", "test", "sample", "bake", "bench", "charts", "stability", "lod-sprite", "caveclod",
-                               "fsi", "proofs", "peers", "docs", "nightly"}) {
+                               "fsi", "wang-ldi", "proofs", "peers", "docs", "nightly"}) {
         EXPECT_TRUE(contains(ran.output, std::string("  ") + target + " ")) << target << "\n" << ran.output;
     }
 }

@@ -1,0 +1,143 @@
+#include "tools/measure/paper/wang_ldi/page.h"
+
+#include "tools/measure/page_text.h"
+#include "tools/measure/paper/page_parts.h"
+#include "tools/measure/paper/wang_ldi/targets.h"
+#include "tools/measure/paper/work.h"
+
+namespace overlook::measure::paper::wang {
+namespace {
+
+constexpr char kTable[] = "<div class=\"wide\"><table class=\"runs numbers\">\n<thead>";
+constexpr char kTableEnd[] = "</tbody></table></div>\n";
+constexpr uint32_t kWideFrom_px = 700;  // wider pictures stand alone
+
+struct Row {
+    const char* title;
+    const BakeReport& report;
+};
+std::vector<Row> rows_of(const Plants& plants) {
+    return {{"as published", plants.paper},
+            {"Overlook", plants.own},
+            {"a single tile", plants.single},
+            {"Robinson's sixteen", plants.robinson}};
+}
+
+std::string setup_html(const WangPage& page) {
+    return "<p>Plants baked into tiles <em>as published</em> (eight tiles, planted round-robin, seven levels, eight directions, "
+           "2.5 "
+           "million rays an image) and as <em>Overlook</em> bakes them by itself, drawn by the exact warper: tiles back to "
+           "front, "
+           "samples in an order in which none hides one after it, each a square of pixels, nothing filled. What a plant leaves "
+           "free is earth and sky.</p>\n<p class=\"note\">" +
+           machine_html(page.setup) + ". " + command_html(page.setup.command) + "</p>\n";
+}
+
+std::string figures_html(const Plants& plants, int least, int most) {
+    std::string html = "<div class=\"pictures\">\n", wide;
+    for (const Picture& picture : plants.pictures) {
+        if (picture.figure < least || picture.figure > most) continue;
+        std::string figure = picture_html(picture.name, fmt::format("Figure {}: {}", picture.figure, picture.caption),
+                                          picture.image.width, picture.image.height);
+        (picture.image.width > kWideFrom_px ? wide : html) += figure;
+    }
+    return html + "</div>\n" + wide;
+}
+
+std::string charts_html(const WangPage& page, const std::string& name, const std::string& sentence) {
+    for (const Chart& chart : page.charts)
+        if (page.has_charts && chart.name == name) return chart_html(chart.name, chart.title, sentence);
+    return "";
+}
+
+std::string periodicity_html(const Plants& plants) {
+    std::string html = kTable +
+                       table_row({"", "tiles", "greatest correlation, lags 2 to 10", "power in the top hundredth, %",
+                                  "equal neighbours of 2 million", "neighbours that disagree"},
+                                 "th") +
+                       "</thead>\n<tbody>\n";
+    for (const auto& [title, r] : rows_of(plants))
+        html += table_row({title, std::to_string(r.tiles), short_number(r.correlation), short_number(100 * r.spectrum_share),
+                           short_count(double(r.equal_neighbours)), short_count(double(r.disagreeing_neighbours))},
+                          "td");
+    return html + kTableEnd +
+           "<p class=\"note\">Over 1,024 x 1,024 tiles: how much oftener than by chance the same tile stands (x, y) apart. Of "
+           "independent tiles about 0.003, of what repeats 1. Power: of 256 x 256 tiles' spectrum; the same at all frequencies: "
+           "1 "
+           "%.</p>\n";
+}
+
+std::string planting_html(const Plants& plants) {
+    std::string html = kTable +
+                       table_row({"", "objects a tile", "density at corners", "at edges", "inside", "relative radius",
+                                  "more would fit, a tile", "tiles with a place left", "overlaps", "of neighbourhoods"},
+                                 "th") +
+                       "</thead>\n<tbody>\n";
+    for (const auto& [title, r] : {rows_of(plants)[0], rows_of(plants)[1]})
+        html += table_row({title, short_number(double(r.objects) / std::max(1u, r.tiles)), short_number(r.density_corner),
+                           short_number(r.density_edge), short_number(r.density_inside), short_number(r.relative_radius),
+                           short_number(r.more_per_tile), short_count(double(r.tiles_with_a_place)),
+                           short_count(double(r.tight_overlaps)), short_count(double(r.neighbourhoods))},
+                          "td");
+    return html + kTableEnd +
+           "<p class=\"note\"><a href=\"sets.csv\">sets.csv</a>, <a href=\"planting.csv\">planting.csv</a></p>\n";
+}
+
+std::string share(const std::optional<Judged>& judged, double Judged::*of) {
+    return judged ? short_number(100 * (*judged).*of) : "";
+}
+
+std::string levels_html(const Plants& plants) {
+    std::string html = kTable +
+                       table_row({"", "pixels a side", "from, m", "samples", "bytes", "bytes a sample", "rays", "unseen, %",
+                                  "holes, %", "among others, %", "too deep, %", "luma off, %"},
+                                 "th") +
+                       "</thead>\n<tbody>\n";
+    for (const auto& [title, report] : {rows_of(plants)[0], rows_of(plants)[1]}) {
+        if (!report.images) continue;
+        auto row = [&](const std::string& name, const LevelReport& level, const char* attributes) {
+            html += table_row({name, std::to_string(level.side_px), short_number(level.nearest_m),
+                               short_count(double(level.samples)), short_bytes(double(level.bytes)),
+                               short_number(double(level.bytes) / double(std::max<uint64_t>(1, level.samples))),
+                               short_count(double(level.rays)), short_number(100 * level.unseen_share_mean),
+                               share(level.own, &Judged::hole_share), share(level.foreign, &Judged::hole_share),
+                               share(level.own, &Judged::deeper_share), share(level.own, &Judged::mean_luma_error)},
+                              "td", attributes);
+        };
+        row(fmt::format("{}, all", title), report.images->all, " class=\"floor\"");
+        for (const LevelReport& level : report.images->levels) row(title, level, "");
+    }
+    return html + kTableEnd +
+           "<p class=\"note\">Unseen: estimated when sampling stopped. Holes, too deep, luma: pictures of each image by the "
+           "warper "
+           "beside what rays see from there, over views of its cell, among the neighbours it was sampled among and among others; "
+           "nothing is filled; empty where the bake was not judged. <a href=\"levels.csv\">levels.csv</a></p>\n";
+}
+
+std::string plants_html(const WangPage& page, const Plants& plants) {
+    std::string name = escaped(plants.name);
+    return "<h2>Figure 2: " + name + "</h2>\n" + figures_html(plants, 2, 2) +
+           charts_html(
+               page, "one-ldi-" + plants.name,
+               "Beside the tiles themselves, drawn from the same place. One LDI is put together from what twelve eyes within "
+               "0.3 m see.") +
+           "<p class=\"note\"><a href=\"one-ldi.csv\">one-ldi.csv</a></p>\n<h2>Figures 3 and 4: which tiles, and what repeats, " +
+           name + "</h2>\n" + periodicity_html(plants) + figures_html(plants, 3, 4) + "<h2>Figures 5 and 6: planting, " + name +
+           "</h2>\n" + planting_html(plants) +
+           charts_html(page, "density-" + plants.name, "1: as densely as anywhere. Steps are few objects wide.") +
+           figures_html(plants, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" + levels_html(plants) +
+           figures_html(plants, 7, 12);
+}
+
+}  // namespace
+
+std::string wang_page_html(const WangPage& page) {
+    std::string body = setup_html(page) +
+                       targets_html(targets_of(page.flown), target_columns(),
+                                    "Red: missed; the reason is from this run's numbers. Minutes are of the machine that baked.");
+    for (const Plants& plants : page.flown.plants) body += plants_html(page, plants);
+    if (!page.has_charts) body += "<p class=\"note\">gnuplot was not installed; the charts' scripts lie in charts/.</p>\n";
+    return paper_page("Tiling layered depth images: the paper, run anew", body);
+}
+
+}  // namespace overlook::measure::paper::wang

@@ -1,0 +1,81 @@
+#include "tools/measure/paper/wang_ldi/subject.h"
+
+#include <filesystem>
+
+#include "formats/mapped_file.h"
+#include "formats/numbers.h"
+#include "runtime/gl/png.h"
+
+namespace overlook::measure::paper::wang {
+namespace {
+
+Result<void> open(const std::string& path, Bake& bake) {
+    auto file = container::Reader::open(path);
+    if (!file) return tl::unexpected(file.error());
+    bake.path = path, bake.file = std::make_unique<container::Reader>(std::move(*file));
+    auto ground = wang_ldi::read(*bake.file);
+    if (!ground) return tl::unexpected(ground.error());
+    auto images = wang_ldi::ImageReader::open(*bake.file);
+    if (!images) return tl::unexpected(images.error());
+    bake.ground = std::move(*ground), bake.opened = std::move(*images);
+    const wang_ldi::ImageSet& set = bake.set();
+    if (set.tile_count != bake.ground.set.tiles.size() || set.tile_m != bake.ground.planting.tile_size_m)
+        return bad_input("{}: images of {} tiles of {:g} m, planted are {} of {:g} m", path, set.tile_count, set.tile_m,
+                         bake.ground.set.tiles.size(), bake.ground.planting.tile_size_m);
+    return {};
+}
+
+Result<void> read_report_of(const std::string& path, const Bake* bake, BakeReport& into) {
+    auto report = read_report(path);
+    if (!report) return tl::unexpected(report.error());
+    into = std::move(*report);
+    if (!bake) return {};
+    uint64_t samples = 0, said = into.images ? into.images->all.samples : 0;
+    for (const wang_ldi::Entry& entry : bake->images().entries()) samples += entry.sample_count;
+    if (said == samples) return {};
+    return bad_input("{}: is of another bake: {} samples, {} has {}", path, with_commas(said), bake->path, with_commas(samples));
+}
+
+Result<void> read_sheet(const std::string& folder, std::vector<std::pair<std::string, ImageRgb8>>& into) {
+    for (const std::string& name : sheet_names()) {
+        std::string path = folder + "/" + name + ".png";
+        auto file = MappedFile::open(path);
+        if (!file) return tl::unexpected(file.error());
+        auto decoded = decode_png(path, file->bytes());
+        if (!decoded) return tl::unexpected(decoded.error());
+        ImageRgb8 picture{decoded->width, decoded->height, {}};
+        for (size_t p = 0; p < decoded->pixels.size(); p += 4)
+            picture.pixels.insert(picture.pixels.end(), decoded->pixels.begin() + long(p), decoded->pixels.begin() + long(p) + 3);
+        into.emplace_back(name, std::move(picture));
+    }
+    return {};
+}
+
+}  // namespace
+
+const std::vector<std::string>& sheet_names() {
+    static const std::vector<std::string> kNames = {"tiles",          "tiling-32", "tiling-256",        "robinson-32",
+                                                    "robinson-256",   "spectrum",  "robinson-spectrum", "planting-neighbours",
+                                                    "planting-tiles", "planting"};
+    return kNames;
+}
+
+Result<Subject> read_subject(const std::string& folder) {
+    Subject subject;
+    subject.name = std::filesystem::path(folder + "/").lexically_normal().parent_path().filename().string();
+    auto at = [&](const char* name) { return folder + "/" + name; };
+    auto done = open(at("paper.ovl"), subject.paper);
+    if (done) done = open(at("own.ovl"), subject.own);
+    if (done) done = open(at("single.ovl"), subject.single);
+    if (done) done = open(at("unlit.ovl"), subject.unlit);
+    if (done) done = read_report_of(at("paper.json"), &subject.paper, subject.of_paper);
+    if (done) done = read_report_of(at("own.json"), &subject.own, subject.of_own);
+    if (done) done = read_report_of(at("single.json"), &subject.single, subject.of_single);
+    if (done) done = read_report_of(at("robinson.json"), nullptr, subject.of_robinson);
+    if (done) done = read_sheet(at("sheet"), subject.sheet);
+    if (done) done = read_sheet(at("sheet-own"), subject.own_sheet);
+    if (!done) return tl::unexpected(done.error());
+    return subject;
+}
+
+}  // namespace overlook::measure::paper::wang

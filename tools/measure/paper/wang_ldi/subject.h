@@ -1,0 +1,45 @@
+// A folder of plants, baked in several ways: what the paper's figures are made of.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/image.h"
+#include "formats/wang_ground.h"
+#include "formats/wang_ldi.h"
+#include "tools/measure/paper/wang_ldi/report.h"
+
+namespace overlook::measure::paper::wang {
+
+// A baked file with images, open.
+struct Bake {
+    std::string path;
+    std::unique_ptr<container::Reader> file;  // the images refer to it
+    wang_ldi::PlantedTiles ground;
+    std::optional<wang_ldi::ImageReader> opened;
+
+    const wang_ldi::ImageReader& images() const { return *opened; }
+    const wang_ldi::ImageSet& set() const { return opened->set(); }
+};
+
+struct Subject {
+    std::string name;  // of the folder: "sunflowers"
+    // With the paper's tiles, planting and constants; as Overlook bakes by itself; a single tile that repeats; the paper's tiles
+    // without light.
+    Bake paper, own, single, unlit;
+    BakeReport of_paper, of_own, of_single, of_robinson;
+    std::vector<std::pair<std::string, ImageRgb8>> sheet, own_sheet;  // sheet_names(), of paper and own
+};
+
+// Figures 3 to 6 of `baked info --sheet`.
+const std::vector<std::string>& sheet_names();
+
+// Reads paper.ovl, own.ovl, single.ovl and unlit.ovl, their reports (paper.json and so on, without unlit's; robinson.json of a
+// bake of Robinson's tiles) and the sheets (sheet/, sheet-own/). Fails as their readers do, and with Exit::bad_input:
+// "a/paper.json: is of another bake: 1,200 samples, paper.ovl has 900".
+Result<Subject> read_subject(const std::string& folder);
+
+}  // namespace overlook::measure::paper::wang

@@ -1,0 +1,77 @@
+#include "tools/measure/paper/wang_ldi/flown.h"
+
+namespace overlook::measure::paper::wang {
+namespace {
+
+struct Row {
+    const char* bake;
+    const BakeReport& report;
+};
+std::vector<Row> rows_of(const Plants& plants) {
+    return {{"paper", plants.paper}, {"own", plants.own}, {"single", plants.single}, {"robinson", plants.robinson}};
+}
+
+std::string judged_csv(const std::optional<Judged>& judged) {
+    if (!judged) return ",,,";
+    return fmt::format("{},{},{},{}", judged->hole_share, judged->deeper_share, judged->mean_luma_error, judged->p99_luma_error);
+}
+
+}  // namespace
+
+std::string sets_csv(const Flown& flown) {
+    std::string csv =
+        "plants,bake,tiles,correlation,spectrum_share_of_top_hundredth,equal_neighbours,disagreeing_neighbours,planting,objects,"
+        "density_corner,density_edge,density_inside,relative_radius,more_per_tile,tiles_with_a_place,neighbourhoods,"
+        "tight_overlaps,images,samples,bytes,rays,seconds,unseen_share_mean,unseen_share_most\n";
+    for (const Plants& plants : flown.plants)
+        for (const auto& [bake, r] : rows_of(plants)) {
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", plants.name, bake, r.tiles, r.correlation,
+                               r.spectrum_share, r.equal_neighbours, r.disagreeing_neighbours, r.method, r.objects,
+                               r.density_corner, r.density_edge, r.density_inside, r.relative_radius, r.more_per_tile,
+                               r.tiles_with_a_place, r.neighbourhoods, r.tight_overlaps);
+            if (!r.images)
+                csv += ",,,,,,,\n";
+            else
+                csv += fmt::format(",{},{},{},{},{},{},{}\n", r.images->all.images, r.images->all.samples, r.images->all.bytes,
+                                   r.images->all.rays, r.images->seconds, r.images->all.unseen_share_mean,
+                                   r.images->unseen_share_most);
+        }
+    return csv;
+}
+
+std::string levels_csv(const Flown& flown) {
+    std::string csv =
+        "plants,bake,side_px,nearest_m,images,samples,bytes,rays,unseen_share_mean,hole_share,deeper_share,mean_luma_error,"
+        "p99_luma_error,foreign_hole_share,foreign_deeper_share,foreign_mean_luma_error,foreign_p99_luma_error\n";
+    for (const Plants& plants : flown.plants)
+        for (const auto& [bake, report] : rows_of(plants)) {
+            if (!report.images) continue;
+            for (const LevelReport& level : report.images->levels)
+                csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", plants.name, bake, level.side_px, level.nearest_m,
+                                   level.images, level.samples, level.bytes, level.rays, level.unseen_share_mean,
+                                   judged_csv(level.own), judged_csv(level.foreign));
+        }
+    return csv;
+}
+
+std::string planting_csv(const Flown& flown) {
+    std::string csv = "plants,bake,zone,distance_m,density\n";
+    for (const Plants& plants : flown.plants)
+        for (const auto& [bake, report] : {Row{"paper", plants.paper}, Row{"own", plants.own}})
+            for (const auto& [zone, densities] :
+                 {std::pair("corner", &report.density_by_corner_distance), std::pair("edge", &report.density_by_edge_distance)})
+                for (size_t i = 0; i < densities->size(); ++i)
+                    csv += fmt::format("{},{},{},{},{}\n", plants.name, bake, zone, (double(i) + 0.5) * report.distance_step_m,
+                                       (*densities)[i]);
+    return csv;
+}
+
+std::string one_ldi_csv(const Flown& flown) {
+    std::string csv = "plants,aside_m,hole_share,wrong_share\n";
+    for (const Plants& plants : flown.plants)
+        for (const Moved& moved : plants.moved)
+            csv += fmt::format("{},{},{},{}\n", plants.name, moved.aside_m, moved.broken.hole_share, moved.broken.wrong_share);
+    return csv;
+}
+
+}  // namespace overlook::measure::paper::wang

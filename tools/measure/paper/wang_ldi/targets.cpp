@@ -1,0 +1,136 @@
+#include "tools/measure/paper/wang_ldi/targets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/measure/page_text.h"
+
+namespace overlook::measure::paper::wang {
+namespace {
+
+using Value = std::optional<double>;
+
+// What the paper prints of its two sets: hours on 500 MHz, megabytes.
+struct Printed {
+    const char *hours, *bytes;
+    double minutes_goal;
+};
+Printed printed_of(const std::string& name) {
+    if (name == "sunflowers") return {"64 h (500 MHz)", "195 MB", 20};
+    if (name == "grass") return {"288 h (500 MHz)", "278 MB", 30};
+    return {"-", "-", 30};
+}
+
+Target target(const Plants& plants, const std::string& name, const char* printed, double goal, bool is_at_least) {
+    return {plants.name + ": " + name, printed, goal, is_at_least, {}, "", ""};
+}
+
+// Of both reports.
+Target of_both(const Plants& plants, Target target, Value (*of)(const BakeReport&)) {
+    target.measured = {of(plants.paper), of(plants.own)};
+    return target;
+}
+
+Value worst_zone(const BakeReport& report) {
+    return std::max(
+        {std::abs(report.density_corner - 1), std::abs(report.density_edge - 1), std::abs(report.density_inside - 1)});
+}
+
+Value finest_unseen(const BakeReport& report) {
+    if (!report.images || report.images->levels.empty()) return std::nullopt;
+    return 100 * report.images->levels[0].unseen_share_mean;
+}
+
+Value finest_holes(const BakeReport& report) {
+    if (!report.images || report.images->levels.empty() || !report.images->levels[0].own) return std::nullopt;
+    return 100 * report.images->levels[0].own->hole_share;
+}
+
+Value finest_foreign_holes(const BakeReport& report) {
+    if (!report.images || report.images->levels.empty() || !report.images->levels[0].foreign) return std::nullopt;
+    return 100 * report.images->levels[0].foreign->hole_share;
+}
+
+void add_of_planting(const Plants& plants, std::vector<Target>& targets) {
+    targets.push_back(of_both(
+        plants, target(plants, "greatest correlation of tiles over lags 2 to 10", "\"looks like white noise\"", 0.02, false),
+        [](const BakeReport& r) { return Value(std::abs(r.correlation)); }));
+    targets.back().note =
+        fmt::format("A single tile {}, Robinson's sixteen {}", short_number(std::abs(plants.single.correlation)),
+                    short_number(std::abs(plants.robinson.correlation)));
+    targets.push_back(of_both(
+        plants, target(plants, "density at corners, at edges and inside, farthest off the mean", "voids at corners", 0.05, false),
+        worst_zone));
+    Target& zones = targets.back();
+    zones.note = fmt::format("As published {:.2f}, {:.2f}, {:.2f}; Overlook {:.2f}, {:.2f}, {:.2f}", plants.paper.density_corner,
+                             plants.paper.density_edge, plants.paper.density_inside, plants.own.density_corner,
+                             plants.own.density_edge, plants.own.density_inside);
+    targets.push_back(of_both(plants, target(plants, "relative radius", "-", 0.7, true),
+                              [](const BakeReport& r) { return Value(r.relative_radius); }));
+    targets.push_back(of_both(plants, target(plants, "tight radii that overlap in any legal neighbourhood", "-", 0, false),
+                              [](const BakeReport& r) { return Value(double(r.tight_overlaps)); }));
+    targets.back().note = fmt::format("Of {} and {} neighbourhoods", short_count(double(plants.paper.neighbourhoods)),
+                                      short_count(double(plants.own.neighbourhoods)));
+}
+
+void add_of_images(const Plants& plants, std::vector<Target>& targets) {
+    Printed printed = printed_of(plants.name);
+    targets.push_back(of_both(plants,
+                              target(plants, "minutes to sample and light all images (and to judge them, where that was asked)",
+                                     printed.hours, printed.minutes_goal, false),
+                              [](const BakeReport& r) { return r.images ? Value(r.images->seconds / 60) : std::nullopt; }));
+    uint64_t found = plants.paper.images ? plants.paper.images->taken_from_parts : 0;
+    if (found > 0)
+        targets.back().note =
+            fmt::format("{} images of the paper's constants were there from a bake before", short_count(double(found)));
+    targets.push_back(of_both(plants, target(plants, "bytes a sample", "about 8", 2.5, false), [](const BakeReport& r) {
+        return r.images ? Value(double(r.images->all.bytes) / double(std::max<uint64_t>(1, r.images->all.samples)))
+                        : std::nullopt;
+    }));
+    targets.push_back(of_both(plants, target(plants, "megabytes of images", printed.bytes, 80, false), [](const BakeReport& r) {
+        return r.images ? Value(double(r.images->all.bytes) / 1e6) : std::nullopt;
+    }));
+    targets.back().note = fmt::format("{} samples and {}", short_count(double(plants.paper_size.samples)),
+                                      short_count(double(plants.own_size.samples)));
+    targets.push_back(
+        of_both(plants, target(plants, "unseen of what eyes of the cell see, nearest level, %", "14.7 (a prototype)", 2, false),
+                finest_unseen));
+    targets.push_back(of_both(
+        plants,
+        target(plants, "pixels that show nothing, nearest level, before any are filled, %", "8.4 (a prototype)", 0.1, false),
+        finest_holes));
+    Value paper = finest_foreign_holes(plants.paper), own = finest_foreign_holes(plants.own);
+    if (paper || own)
+        targets.back().note = fmt::format("Among other neighbours than they were sampled among {} and {}",
+                                          paper ? short_number(*paper) : "-", own ? short_number(*own) : "-");
+}
+
+// From the run's own numbers.
+void say_why(const Plants& plants, Target& target) {
+    if (target.measured.back().value_or(target.goal) <= target.goal || target.is_at_least) return;
+    if (target.name.find("show nothing") != std::string::npos)
+        target.why = fmt::format(
+            "a sample is drawn as wide as its pixel and no wider; {} % of what is seen was never sampled, and "
+            "holes are filled when a picture is drawn, not when images are baked",
+            short_number(finest_unseen(plants.own).value_or(0)));
+    if (target.name.find("megabytes") != std::string::npos)
+        target.why = fmt::format("{} samples of {} tiles", short_count(double(plants.own_size.samples)), plants.own.tiles);
+}
+
+}  // namespace
+
+std::vector<std::string> target_columns() {
+    return {"the paper's constants", "Overlook"};
+}
+
+std::vector<Target> targets_of(const Flown& flown) {
+    std::vector<Target> targets;
+    for (const Plants& plants : flown.plants) {
+        size_t first = targets.size();
+        add_of_planting(plants, targets), add_of_images(plants, targets);
+        for (size_t i = first; i < targets.size(); ++i) say_why(plants, targets[i]);
+    }
+    return targets;
+}
+
+}  // namespace overlook::measure::paper::wang

@@ -1,0 +1,49 @@
+// Flat ground covered with tiles row by row, and pictures of it by the exact warper: sections 2 and 5.2 of the paper.
+#pragma once
+
+#include <map>
+
+#include "runtime/wang_ldi/tiling.h"
+#include "runtime/wang_ldi/warp.h"
+#include "tools/measure/paper/wang_ldi/subject.h"
+
+namespace overlook::measure::paper::wang {
+
+constexpr double kRadius_tiles = 40;  // nothing is drawn beyond, as in the paper
+
+// What was drawn for a picture.
+struct WoodCounts {
+    uint64_t tiles = 0, samples = 0, pixels = 0;  // of the picture, that show a plant
+    double warp_ms = 0;                           // one thread; images at hand
+};
+
+class Wood {
+  public:
+    // As many tiles as a picture from the middle needs. bake must outlive it. Fails as tile_row_by_row.
+    static Result<Wood> make(const Bake& bake, uint64_t seed);
+
+    // In the middle of the ground, an eye of the cell's mean height; pixels as asked.
+    view::Camera camera(uint32_t width_px, uint32_t height_px) const;
+
+    // Tiles within kRadius_tiles and in sight, back to front, each at its level and direction. Images that are read stay in
+    // memory. Fails as ImageReader::read.
+    Result<WoodCounts> draw(const view::Camera& camera, wang_ldi::Warped& picture);
+
+    // The level and direction of every tile within `tiles` of the camera's, level by brightness, direction by hue (figure 7).
+    ImageRgb8 rings(const view::Camera& camera, uint32_t tiles, uint32_t tile_px) const;
+
+    const wang_ldi::ImageSet& set() const { return bake_->set(); }
+
+  private:
+    explicit Wood(const Bake& bake) : bake_(&bake) {}
+    glm::dvec2 middle_m(uint32_t column, uint32_t row) const { return (glm::dvec2(column, row) + 0.5) * set().tile_m; }
+
+    const Bake* bake_;
+    wang_ldi::Tiling tiling_;
+    std::map<uint64_t, wang_ldi::Ldi> images_;
+};
+
+// Bare ground and sky behind what is drawn.
+ImageRgb8 with_ground(const view::Camera& camera, const wang_ldi::Warped& picture);
+
+}  // namespace overlook::measure::paper::wang
