@@ -59,12 +59,16 @@ Result<Field> Field::of(const FieldParts& parts, const FieldOptions& options) {
     if (images.tile_count != parts.set->tiles.size() || images.levels.empty() || images.direction_count == 0)
         return bad_command("a field of {} tiles with images of {} tiles, {} levels, {} directions", parts.set->tiles.size(),
                            images.tile_count, images.levels.size(), images.direction_count);
+    if (!(parts.overhang_m >= 0 && std::isfinite(parts.overhang_m)))
+        return bad_command("a field whose plants reach {} m over their tiles' edges", parts.overhang_m);
     if (parts.sample_counts.size() != images.ldi_count())
         return bad_command("a field of {} images with {} counts of samples", images.ldi_count(), parts.sample_counts.size());
     Field made;
     made.parts_ = parts, made.options_ = options, made.ladder_ = ladder_of(images, options.ladder);
     made.blocks_from_m_ = made.reach_m_ = INFINITY;
-    for (const Rung& rung : made.ladder_.rungs) {
+    const std::vector<Rung>& rungs = made.ladder_.rungs;
+    if (rungs.front().stage == Stage::geometry) made.geometry_to_m_ = rungs.size() > 1 ? rungs[1].fade_to_m : INFINITY;
+    for (const Rung& rung : rungs) {
         if (rung.stage >= Stage::texture) made.blocks_from_m_ = std::min(made.blocks_from_m_, rung.fade_to_m);
         if (rung.stage == Stage::bare) made.reach_m_ = rung.fade_to_m;
     }

@@ -27,6 +27,7 @@ struct FieldParts {
     const TileSet* set = nullptr;
     const RandomTiling* tiling = nullptr;  // of set
     const Placement* placement = nullptr;  // of tiles of images->tile_m
+    double overhang_m = 0;  // so far what is planted reaches over its tile's edges at most; where tiles are drawn as geometry
 };
 
 struct FieldOptions {
@@ -131,6 +132,7 @@ class Field {
     FieldParts parts_;
     FieldOptions options_;
     Ladder ladder_;
+    double geometry_to_m_ = 0;  // geometry is shown up to here
     double blocks_from_m_ = 0;  // nothing but textures and colours is shown from here on
     double reach_m_ = 0;        // nothing is
     friend class FieldWalk;

@@ -72,7 +72,7 @@ class FieldWalk {
         double ground_m = distance_to(rect, glm::dvec2(eye_m_));
         if (ground_m >= field_.reach_m_) return;
         GroundRange bound = placement_.ground().bound(rect);
-        if (bound.is_empty() || !is_in_sight(rect, bound)) return;
+        if (bound.is_empty() || !is_in_sight(rect, bound, ground_m < field_.geometry_to_m_)) return;
         Placement::Coverage coverage = placement_.coverage(rect);
         if (log2 == 0) return visit_tile(i, j, rect, coverage);
         if (coverage == Placement::Coverage::none) return;
@@ -84,10 +84,12 @@ class FieldWalk {
             visit(i + x * half, j + y * half, uint8_t(log2 - 1));
     }
 
-    // Whether some of a rectangle with what is planted on it may be: a box behind one of the sides is not.
-    bool is_in_sight(const Rect& rect, const GroundRange& ground) const {
-        glm::dvec3 low = glm::dvec3(rect.low_m, ground.low_m + images_.low_m) - eye_m_;
-        glm::dvec3 high = glm::dvec3(rect.high_m, ground.high_m + images_.high_m) - eye_m_;
+    // Whether some of a rectangle with what is planted on it may be: a box behind one of the sides is not. Geometry reaches over
+    // its edges, images do not.
+    bool is_in_sight(const Rect& rect, const GroundRange& ground, bool may_be_geometry) const {
+        double over_m = may_be_geometry ? field_.parts_.overhang_m : 0;
+        glm::dvec3 low = glm::dvec3(rect.low_m - over_m, ground.low_m + images_.low_m) - eye_m_;
+        glm::dvec3 high = glm::dvec3(rect.high_m + over_m, ground.high_m + images_.high_m) - eye_m_;
         auto farthest = [&](const glm::dvec3& along) {
             return std::max(along.x * low.x, along.x * high.x) + std::max(along.y * low.y, along.y * high.y) +
                    std::max(along.z * low.z, along.z * high.z);

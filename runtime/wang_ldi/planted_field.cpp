@@ -28,6 +28,11 @@ Result<void> PlantedField::make_parts(const PlantedOptions& options) {
                          shared.tile_m, set_.tiles.size(), planting_.tile_size_m);
     for (const Entry& entry : images_->entries()) sample_counts_.push_back(entry.sample_count);
 
+    for (const auto& tile : planting_.tiles)
+        for (const Planted& object : tile)
+            if (object.owner != Owner::interior)
+                overhang_m_ = std::max(overhang_m_, double(planting_.models[object.model].tight_radius_m) * double(object.scale));
+
     Result<Placement> placement = Placement::of(ground_, shared.tile_m, options.placement);
     if (!placement) return tl::unexpected(placement.error());
     placement_.emplace(std::move(*placement));

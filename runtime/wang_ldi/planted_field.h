@@ -39,7 +39,7 @@ class PlantedField {
     const RandomTiling& tiling() const { return *tiling_; }
     const Placement& placement() const { return *placement_; }
     const Ground& ground() const { return ground_; }
-    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, &*tiling_, &*placement_}; }
+    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, &*tiling_, &*placement_, overhang_m_}; }
 
   private:
     PlantedField(container::Reader file, Ground on) : file_(std::move(file)), ground_(std::move(on)) {}
@@ -51,6 +51,7 @@ class PlantedField {
     Planting planting_;
     std::optional<ImageReader> images_;
     std::vector<uint32_t> sample_counts_;
+    double overhang_m_ = 0;  // as FieldParts
     std::optional<Placement> placement_;
     std::optional<RandomTiling> tiling_;
 };

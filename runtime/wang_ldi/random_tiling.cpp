@@ -23,6 +23,7 @@ struct BlockFiller {
     uint32_t side;
     // [side] each, west to east or south to north.
     std::array<uint8_t, kMostBlock> south{}, north{}, west{}, east{};
+    std::array<uint8_t, (kMostBlock + 1) * (kMostBlock + 1)> corners{};  // [side + 1, side + 1], of sets with several colours
     uint64_t order_seed = 0;
     std::array<uint32_t, kMostBlock * kMostBlock> placed{};
 
@@ -40,9 +41,38 @@ struct BlockFiller {
             const Tile& tile = tiling.prototiles_[placed[cell]];
             if (x + 1 == side && tile.east != east[y]) continue;
             if (y + 1 == side && tile.north != north[x]) continue;
+            if (tiling.corner_colours_ > 1 && tiling.horizontal_[tile.north].high != corner(x + 1, y + 1)) continue;
             if (fill(skip, cell + 1)) return true;
         }
         return false;
+    }
+    uint8_t& corner(uint32_t x, uint32_t y) { return corners[y * (side + 1) + x]; }
+    // Those of the border from its edges; false if these disagree about one.
+    bool take_corners() {
+        bool agrees = true;
+        auto take = [&](const EdgeColour& edge, uint32_t x, uint32_t y, uint32_t high_x, uint32_t high_y, bool is_first) {
+            agrees &= is_first || corner(x, y) == edge.low;
+            corner(x, y) = edge.low, corner(high_x, high_y) = edge.high;
+        };
+        for (uint32_t i = 0; i < side; ++i) take(tiling.horizontal_[south[i]], i, 0, i + 1, 0, i == 0);
+        for (uint32_t i = 0; i < side; ++i) take(tiling.vertical_[east[i]], side, i, side, i + 1, false);
+        for (uint32_t i = 0; i < side; ++i) take(tiling.vertical_[west[i]], 0, i, 0, i + 1, false);
+        uint8_t north_east = corner(side, side);
+        for (uint32_t i = 0; i < side; ++i) take(tiling.horizontal_[north[i]], i, side, i + 1, side, false);
+        return agrees && corner(side, side) == north_east;
+    }
+    // Whatever the colours of the corners inside are.
+    bool fills_with_any_corners() {
+        uint64_t inside = uint64_t(side - 1) * (side - 1), ways = 1;
+        for (uint64_t i = 0; i < inside; ++i) ways *= tiling.corner_colours_;
+        for (uint64_t way = 0; way < ways; ++way) {
+            uint64_t rest = way;
+            for (uint32_t y = 1; y < side; ++y)
+                for (uint32_t x = 1; x < side; ++x, rest /= tiling.corner_colours_)
+                    corner(x, y) = uint8_t(rest % tiling.corner_colours_);
+            if (!fill_first()) return false;
+        }
+        return true;
     }
     bool fill_first() {
         uint32_t skip = 0;
@@ -76,7 +106,7 @@ struct BlockFiller {
                  : i < 3 * block ? filler.west
                                  : filler.east)[i % block] = colour;
             }
-            if (!filler.fill_first()) return false;
+            if (filler.take_corners() && !filler.fills_with_any_corners()) return false;
         }
         return true;
     }
@@ -121,12 +151,10 @@ Result<RandomTiling> RandomTiling::of(const TileSet& set, uint64_t seed, CornerA
         std::none_of(made.horizontal_between_.begin(), made.horizontal_between_.end(), [](auto& c) { return c.empty(); }) &&
         std::none_of(made.vertical_between_.begin(), made.vertical_between_.end(), [](auto& c) { return c.empty(); });
     if (has_all_edges && BlockFiller::is_complete(made)) return made;
-    if (corners > 1)
-        return impossible("a set of {} tiles with {} colours of corners permits no random access: some four corners have no tile",
-                          set.tiles.size(), corners);
     for (made.block_ = 2; made.block_ <= kMostBlock; ++made.block_)
         if (BlockFiller::fills_every_border(made, made.block_)) return made;
-    return impossible("a set of {} tiles permits no random access: some border of {} x {} tiles cannot be filled",
+    return impossible("a set of {} tiles permits no random access: some border of {} x {} tiles cannot be filled, or there are too "
+                      "many to try",
                       set.tiles.size(), kMostBlock, kMostBlock);
 }
 
@@ -152,6 +180,8 @@ uint32_t RandomTiling::prototile(int64_t x, int64_t y) const {
         filler.south[i] = horizontal_edge(left + i, bottom), filler.north[i] = horizontal_edge(left + i, bottom + side);
         filler.west[i] = vertical_edge(left, bottom + i), filler.east[i] = vertical_edge(left + side, bottom + i);
     }
+    for (uint32_t j = 0; corner_colours_ > 1 && j <= block_; ++j)
+        for (uint32_t i = 0; i <= block_; ++i) filler.corner(i, j) = corner(left + i, bottom + j);
     filler.order_seed = hash_of(seed_, kOrder, left, bottom);
     block_ == 1 ? void(filler.fill_first()) : filler.fill_any();
     return filler.placed[size_t(y - bottom) * block_ + size_t(x - left)];

@@ -60,11 +60,11 @@ NeighbourCount count_neighbours(const TileSet& set, const Tiling& tiling);
 // A tiling of the whole plane that keeps no tile. Edges between blocks of block() x block() tiles are coloured by a hash of their
 // place; what is inside follows from them. block() is 1 for a set that has a tile for every four colours (whose corners agree):
 // then at() is one look-up. Else it is the smallest with which every block's border can be filled, which is tried out once for
-// every border; sets of 12 tiles need 2. A prototile with variants never stands beside itself in the same variant.
+// every border and all corners inside; sets of 12 tiles need 2, with borders of the planting too. A prototile with variants never stands beside itself in the same variant.
 class RandomTiling {
   public:
-    // Exit::impossible: "a set of 8 tiles permits no random access: some border of 4 x 4 tiles cannot be filled". corner_at:
-    // of sets with block() 1.
+    // Exit::impossible: "a set of 8 tiles permits no random access: some border of 4 x 4 tiles cannot be filled, or there are too
+    // many to try".
     static Result<RandomTiling> of(const TileSet& set, uint64_t seed, CornerAt corner_at = {});
 
     uint8_t at(int64_t x, int64_t y) const;  // index into TileSet::tiles

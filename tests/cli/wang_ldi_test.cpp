@@ -118,6 +118,25 @@ TEST(BakeWangLdi, ShowsItsTilesAsPictures) {
         EXPECT_GE(fs::file_size(folder / ("sheet/" + std::string(name))), 1000u) << name;
 }
 
+TEST(BakeWangLdi, ShowsRobinsonsSetWithVariants) {
+    ScratchFolder folder;
+    write_recipe(folder);
+    expect_done(bake(folder, {"--only", "planting", "--quiet", "--tiles", "robinson", "--variants", "2"}));
+    expect_done(run({"baked", "info", folder / "out.ovl", "--sheet", folder / "sheet"}));
+}
+
+TEST(BakeWangLdi, TakesTilesInPlaceOfTheRecipesOneTile) {
+    ScratchFolder folder;
+    write_recipe(folder, "packing_radius_m = 0.5\n", "tile_size_m = 5.36\ntiles = 1\ncandidates = 2\n");
+    Ran ran = bake(folder, {"--only", "planting", "--tiles", "12", "--json"});
+    expect_done(ran);
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["tiles"]["count"], 12);
+    ran = bake(folder, {"--only", "planting", "--colours", "1", "--json"});
+    expect_done(ran);
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["tiles"]["count"], 1);
+    expect_no_bake(folder, 2, {"12 tiles of one colour each way"}, {"--colours", "1", "--tiles", "12"});
+}
+
 TEST(BadRecipe, ThatIsMissingOrNoToml) {
     ScratchFolder folder;
     expect_no_bake(folder, 3, {"meadow.toml", "No such file"});
@@ -207,6 +226,8 @@ TEST(BadOutput, IsRefusedBeforeAnythingIsLost) {
     std::string recipe = write_recipe(folder);
     auto before = contents_of(folder.path());
     expect_refusal(run({"bake-wang-ldi", recipe, "-o", recipe}), 2, "bake-wang-ldi", {"would be overwritten"});
+    expect_refusal(run({"bake-wang-ldi", recipe, "-o", folder / "flower.obj", "--only", "planting"}), 2, "bake-wang-ldi",
+                   {"flower.obj", "would be overwritten"});
     expect_refusal(run({"bake-wang-ldi", recipe, "-o", folder / "none/out.ovl"}), 4, "bake-wang-ldi", {"none/out.ovl"});
     expect_refusal(run({"baked", "info", recipe}), 3, "baked info", {"C1"});
     EXPECT_EQ(contents_of(folder.path()), before);

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "runtime/wang_ldi/random.h"
 #include "tools/bake/wang_ldi/periodicity.h"
 #include "tools/bake/wang_ldi/tile_sets.h"
 
@@ -170,6 +171,25 @@ TEST(RandomTiling, OfTooFewTilesIsRefused) {
         ++refused;
     }
     EXPECT_EQ(refused, 2u);
+}
+
+TEST(RandomTiling, OfTheDefaultSetWithBordersFollowsWhateverCornersAreAsked) {
+    TileSet set = set_of(12, 1, true);
+    CornerAt corner_at = [](int64_t x, int64_t y) { return uint8_t(hash_of(3, 1, x / 3, y / 2) % 3 == 0); };
+    auto random = RandomTiling::of(set, 6, corner_at);
+    ASSERT_TRUE(random) << random.error().message;
+    EXPECT_EQ(random->block(), 2u);
+    Tiling tiling = window_of(*random, -31, -64, 150);
+    EXPECT_EQ(count_neighbours(set, tiling).disagreeing, 0u);
+    for (uint32_t y = 0; y < 150; ++y)
+        for (uint32_t x = 0; x < 150; ++x) {
+            std::array<uint8_t, 4> corners = corners_of(set, set.tiles[tiling.at(x, y)]);
+            for (uint32_t c = 0; c < 4; ++c)
+                ASSERT_EQ(corners[c], corner_at(int64_t(x + (c & 1)) - 31, int64_t(y + (c >> 1)) - 64));
+        }
+    auto planted = RandomTiling::of(set, 6, [](int64_t, int64_t) { return uint8_t(0); });
+    ASSERT_TRUE(planted);
+    EXPECT_LE(std::abs(greatest_correlation(window_of(*planted, 0, 0, 512)).value), 0.02);
 }
 
 TEST(DensityMap, IsFollowedWithEveryEdgeMet) {

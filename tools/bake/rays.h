@@ -23,7 +23,7 @@ constexpr size_t kPacket = 16;
 struct Mask {
     uint32_t width_px = 0, height_px = 0;
     std::vector<uint8_t> opacity;  // [height, width]
-    uint8_t least = 128;
+    uint16_t least = 128;  // above 255: holes all over
 };
 
 struct Mesh {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 
 #include "formats/mapped_file.h"
 
@@ -15,12 +16,13 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 Result<wang_ldi::Recipe> recipe_of(const GroundArgs& args, const command::Common& common) {
     auto recipe = wang_ldi::read_recipe(args.recipe);
     if (!recipe) return recipe;
-    if (args.colours > 0) recipe->set.horizontal_colours = recipe->set.vertical_colours = args.colours;
-    if (args.colours > 0 && args.tiles.empty()) recipe->set.tiles = 3 * args.colours * args.colours;
     if (!args.tiles.empty()) {
         if (auto chosen = wang_ldi::choose_tiles(args.tiles, recipe->set); !chosen)
             return bad_command("--tiles: {}", chosen.error().message);
     }
+    if (args.colours > 0) recipe->set.horizontal_colours = recipe->set.vertical_colours = args.colours;
+    uint32_t pairs = args.colours * args.colours;
+    if (args.colours > 0 && args.tiles.empty()) recipe->set.tiles = std::min(3 * pairs, pairs * pairs);
     if (!args.planting.empty()) recipe->is_as_paper = args.planting == "paper";
     if (args.has_borders) recipe->set.has_borders = true;
     if (args.variants > 0) recipe->set.variants = args.variants;
@@ -60,6 +62,9 @@ Result<GroundDone> make_ground(const GroundArgs& args, const command::Common& co
     auto recipe = recipe_of(args, common);
     if (!recipe) return tl::unexpected(recipe.error());
     done.recipe = std::move(*recipe);
+    for (const std::string& path : done.recipe.files)
+        if (std::error_code is_no_file; std::filesystem::equivalent(path, args.output, is_no_file))
+            return bad_command("{}: is read and would be overwritten; give another --output", args.output);
     auto at_recipe = [&](Error error) {
         bool is_the_recipes = error.exit == Exit::bad_input;
         return tl::unexpected(Error{error.exit, is_the_recipes ? args.recipe + ": " + error.message : error.message});

@@ -219,5 +219,40 @@ TEST(Field, RefusesPartsThatDoNotBelongTogether) {
     message(test.parts(), options);
 }
 
+// A plant that leans over its tile's edge into the picture is drawn with its tile, where it is drawn as geometry.
+TEST(Field, ListsTilesBesideThePictureWhosePlantsReachIntoIt) {
+    TestField test(Ground::plain());
+    FieldParts parts = test.parts();
+    view::Camera camera = head_camera({1, 1, 1.7}, 37);
+    auto listed = [&](double overhang_m, double geometry_to_m) {
+        parts.overhang_m = overhang_m;
+        auto field = Field::of(parts, test.to_horizon(geometry_to_m));
+        EXPECT_TRUE(field);
+        std::set<Place> places;
+        for (const Item& item : list_of(*field, camera).items)
+            if (item.tiles_log2 == 0) places.insert({item.i, item.j});
+        return places;
+    };
+    std::set<Place> without = listed(0, 20), with = listed(0.7, 20);
+    EXPECT_TRUE(std::includes(with.begin(), with.end(), without.begin(), without.end()));
+    // Tiles of which a place within 0.7 m is in the picture are there, near enough to be geometry.
+    int more = 0;
+    for (int64_t j = -8; j < 8; ++j)
+        for (int64_t i = -8; i < 8; ++i) {
+            bool reaches_in = false;
+            for (double y = -0.49; y < 2.88; y += 0.1)
+                for (double x = -0.49; x < 2.88 && !reaches_in; x += 0.1)
+                    for (double z : {0.0, 0.9, 1.7})
+                        reaches_in |= is_seen(camera, {2 * double(i) - 0.2 + x, 2 * double(j) - 0.2 + y, z});
+            if (!reaches_in || glm::distance(glm::dvec2(1), glm::dvec2(2 * i + 1, 2 * j + 1)) > 14) continue;
+            EXPECT_EQ(with.count({i, j}), 1u) << i << " " << j;
+            more += without.count({i, j}) == 0;
+        }
+    EXPECT_GE(more, 1);
+    EXPECT_EQ(listed(0.7, 0), listed(0, 0));  // images reach over no edge
+    parts.overhang_m = -1;
+    EXPECT_FALSE(Field::of(parts, test.to_horizon(20)));
+}
+
 }  // namespace
 }  // namespace overlook::wang_ldi

@@ -52,6 +52,24 @@ TEST(Models, KeepHolesColoursAndLeaves) {
     EXPECT_EQ(bark.normal, glm::vec3(0, 0, 1));
 }
 
+TEST(Models, OfFaintSurfacesAreHolesWhereTheyAreBelowTheCutoff) {
+    auto solid_at = [](float alpha, bool has_picture) {
+        mesh::Mesh mesh = leaf_and_bark();
+        mesh.surfaces[0].base_colour.a = alpha, mesh.surfaces[0].alpha_cutoff = 0.5f;
+        if (!has_picture) mesh.surfaces[0].texture_bytes.clear();
+        Models models;
+        EXPECT_TRUE(add_model(mesh, {}, models));
+        EXPECT_TRUE(is_solid(models.meshes[0], 1, 0.1f, 0.1f));
+        return is_solid(models.meshes[0], 0, 0.1f, 0.1f);  // an opaque texel
+    };
+    for (bool has_picture : {false, true}) {
+        EXPECT_FALSE(solid_at(0, has_picture));
+        EXPECT_FALSE(solid_at(0.4f, has_picture));
+        EXPECT_TRUE(solid_at(0.5f, has_picture));
+        EXPECT_TRUE(solid_at(1, has_picture));
+    }
+}
+
 TEST(Models, WithPicturesThatCannotBeReadAreRefusedByName) {
     mesh::Mesh mesh = leaf_and_bark();
     mesh.surfaces[0].texture_bytes.resize(20);

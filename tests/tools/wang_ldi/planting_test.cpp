@@ -273,6 +273,37 @@ TEST(PaperPlanting, OverlapsNowhereButLeavesVoidsAtCorners) {
     }
 }
 
+TEST(PaperPlanting, OfWhatThePaperDoesNotKnowIsRefused) {
+    SetOptions borders;
+    borders.has_borders = true;
+    PlantOptions options = sunflowers();
+    PlantReport report;
+    auto bare = plant_as_paper(set_of(borders), options, report);
+    ASSERT_FALSE(bare);
+    EXPECT_EQ(bare.error().exit, Exit::bad_input);
+    EXPECT_NE(bare.error().message.find("no borders"), std::string::npos) << bare.error().message;
+    options.models.push_back(model_of(1, 1.2f));
+    options.models[1].per_tile = 1;
+    auto tree = plant_as_paper(set_of(12), options, report);
+    ASSERT_FALSE(tree);
+    EXPECT_EQ(tree.error().exit, Exit::bad_input);
+    EXPECT_NE(tree.error().message.find("per_tile"), std::string::npos) << tree.error().message;
+}
+
+TEST(Planting, PutsTreesBesidesTheFlowersThatAreAskedFor) {
+    PlantOptions options = sunflowers();
+    options.tile_size_m = 12, options.candidates = 4, options.density_per_m2 = 0.4;
+    options.models.push_back(model_of(0.9f, 1));
+    options.models[1].per_tile = 5;
+    PlantReport report;
+    Planting planting = planted(set_of(12), options, &report);
+    double flowers = 0;
+    for (const auto& tile : planting.tiles)
+        for (const Planted& object : tile) flowers += object.model == 0;
+    EXPECT_NEAR(flowers / 12 / 144, 0.4, 0.01);
+    EXPECT_NEAR(report.density_per_m2, 0.4, 0.01);
+}
+
 TEST(PaperPlanting, HasAlmostAsManyObjectsInEveryTile) {
     TileSet set = set_of(12);
     PlantOptions options = sunflowers();

@@ -91,22 +91,24 @@ void Maker::add_looks() {
     skin_.looks_of = mesh_.face_surface;
 }
 
-// A mask for each masked surface with a picture whose opacity, times the surface's own, is below the cutoff somewhere.
+// A mask for each masked surface whose opacity, its picture's (1 without one) times its own, is below the cutoff somewhere.
 void Maker::add_masks() {
     std::vector<uint32_t> mask_of(mesh_.surfaces.size(), rays::kNone);
     for (size_t s = 0; s < mesh_.surfaces.size(); ++s) {
         const mesh::Surface& surface = mesh_.surfaces[s];
-        auto picture = pictures_.find(surface.texture);
-        if (!surface.is_alpha_masked || picture == pictures_.end() || mesh_.uvs.empty()) continue;
-        float least = surface.base_colour.a > 0 ? surface.alpha_cutoff / surface.base_colour.a : 2;
-        rays::Mask mask{
-            picture->second.width, picture->second.height, {}, uint8_t(std::clamp(std::ceil(least * 255), 0.0f, 255.0f))};
-        for (size_t p = 3; p < picture->second.pixels.size(); p += 4) mask.opacity.push_back(picture->second.pixels[p]);
+        if (!surface.is_alpha_masked) continue;
+        float own = surface.base_colour.a, least = own > 0 ? surface.alpha_cutoff / own : surface.alpha_cutoff > 0 ? 2.0f : 0.0f;
+        rays::Mask mask{1, 1, {255}, uint16_t(std::clamp(std::ceil(least * 255), 0.0f, 256.0f))};
+        if (auto picture = pictures_.find(surface.texture); picture != pictures_.end() && !mesh_.uvs.empty()) {
+            mask.width_px = picture->second.width, mask.height_px = picture->second.height, mask.opacity.clear();
+            for (size_t p = 3; p < picture->second.pixels.size(); p += 4) mask.opacity.push_back(picture->second.pixels[p]);
+        }
         if (std::all_of(mask.opacity.begin(), mask.opacity.end(), [&](uint8_t o) { return o >= mask.least; })) continue;
         mask_of[s] = uint32_t(shape_.masks.size());
         shape_.masks.push_back(std::move(mask));
     }
     if (shape_.masks.empty()) return;
+    if (shape_.uvs.empty()) shape_.uvs.resize(shape_.triangles.size());
     for (uint32_t surface : mesh_.face_surface) shape_.masks_of.push_back(mask_of[surface]);
 }
 

@@ -60,17 +60,18 @@ class Assembler {
     Planting planting_;
 };
 
-// Of the tiles that are planted in full, if there are some.
-double mean_density(const TileSet& set, const Planting& planting) {
+// Of the models by weight, in the tiles that are planted in full, if there are some.
+double mean_density(const TileSet& set, const PlantOptions& options, const Planting& planting) {
     Planting full = fully_planted(set, planting);
     size_t objects = 0;
-    for (const auto& tile : full.tiles) objects += tile.size();
+    for (const auto& tile : full.tiles)
+        for (const Planted& object : tile) objects += options.models[object.model].per_tile == 0;
     return double(objects) / double(full.tiles.size()) / (planting.tile_size_m * planting.tile_size_m);
 }
 
 // The density, as a share of the full one, at which the mean is nearest to what is asked for.
 double share_for(const TileSet& set, const PlantOptions& options, const OwnedObjects& owned) {
-    auto mean_at = [&](double share) { return mean_density(set, Assembler(set, options, owned, share).run()); };
+    auto mean_at = [&](double share) { return mean_density(set, options, Assembler(set, options, owned, share).run()); };
     double low = 0, high = 1;
     for (int step = 0; step < 24; ++step) {
         double middle = (low + high) / 2;
@@ -91,14 +92,14 @@ Result<Planting> plant(const TileSet& set, const PlantOptions& options, PlantRep
         if (!made) return tl::unexpected(made.error());
         const OwnedObjects& owned = *made;
         Planting planting = Assembler(set, options, owned, 1).run();
-        double full = mean_density(set, planting);
+        double full = mean_density(set, options, planting);
         if (options.density_per_m2 > 0 && full >= options.density_per_m2)
             planting = Assembler(set, options, owned, share_for(set, options, owned)).run();
         double unevenness = unevenness_of(set, planting, edge_reach_m(options));
         bool is_met = full >= options.density_per_m2;
         if (full > report.full_density_per_m2) report.full_density_per_m2 = full;
         if (!is_met || unevenness >= least) continue;
-        least = unevenness, report.kept = attempt, report.density_per_m2 = mean_density(set, planting);
+        least = unevenness, report.kept = attempt, report.density_per_m2 = mean_density(set, options, planting);
         best = std::move(planting);
     }
     if (best.tiles.empty())

@@ -44,8 +44,8 @@ double least_tile_size_m(const PlantOptions& options);
 
 struct PlantReport {
     uint32_t candidates = 0, kept = 0;  // how many were made, and which was kept
-    double full_density_per_m2 = 0;     // as many as have a place
-    double density_per_m2 = 0;          // what was planted
+    double full_density_per_m2 = 0;     // of models by weight: as many as have a place
+    double density_per_m2 = 0;          // and what was planted
     uint32_t rounds = 0;                // of the paper's
 };
 
@@ -54,7 +54,8 @@ struct PlantReport {
 // "tile_size_m: 1.2 is too small ...", "density_per_m2: 40 a square metre do not fit; 25.3 do ...".
 Result<Planting> plant(const TileSet& set, const PlantOptions& options, PlantReport& report);
 
-// As the paper does it, with its voids at corners. Exit::bad_input: "tile_size_m: ...".
+// As the paper does it, with its voids at corners. It knows neither corners of less density nor what stands per tile.
+// Exit::bad_input: "tile_size_m: ...", "planting: \"paper\" plants no borders ...", "oak.obj: per_tile: ...".
 Result<Planting> plant_as_paper(const TileSet& set, const PlantOptions& options, PlantReport& report);
 
 }  // namespace overlook::wang_ldi

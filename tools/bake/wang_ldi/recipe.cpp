@@ -121,7 +121,9 @@ Result<void> choose_tiles(const std::string& text, SetOptions& set) {
         return bad_input("\"{}\" is no set of tiles: 1, 8, 12, 16, another count up to 255, \"robinson\" or \"corners\" is",
                          text);
     set.kind = SetKind::stochastic, set.tiles = tiles;
-    if (tiles == 1) set.horizontal_colours = set.vertical_colours = 1;
+    // One tile has one colour; more tiles, in place of one, have more again.
+    bool has_one_colour = set.horizontal_colours * set.vertical_colours == 1;
+    if (tiles == 1 || has_one_colour) set.horizontal_colours = set.vertical_colours = tiles == 1 ? 1 : SetOptions().vertical_colours;
     return {};
 }
 

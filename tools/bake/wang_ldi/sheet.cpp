@@ -176,7 +176,10 @@ ImageRgb8 planting_picture(const PlantedTiles& ground, const Tiling& tiling) {
 Result<Tiling> sheet_tiling(const TileSet& set, uint64_t seed) {
     constexpr uint32_t kSide = 256;
     TileSet robinson = robinson_set();
-    if (set.tiles == robinson.tiles && set.horizontal == robinson.horizontal) return robinson_tiling(set, kSide, kSide, seed);
+    std::vector<Tile> prototiles;  // variants stand beside each other
+    for (const Tile& tile : set.tiles)
+        if (prototiles.empty() || !(prototiles.back() == tile)) prototiles.push_back(tile);
+    if (prototiles == robinson.tiles && set.horizontal == robinson.horizontal) return robinson_tiling(set, kSide, kSide, seed);
     TilingOptions options;
     options.seed = seed;
     if (std::count(set.corner_density.begin(), set.corner_density.end(), 0.0f) > 0)

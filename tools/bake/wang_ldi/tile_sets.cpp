@@ -17,6 +17,7 @@ constexpr size_t kMostTiles = 255;
 Result<void> check(const SetOptions& options) {
     uint32_t pairs = options.horizontal_colours * options.vertical_colours;
     if (options.kind != SetKind::stochastic || (options.tiles == 1 && pairs == 1)) return {};
+    if (pairs == 1) return bad_command("{} tiles of one colour each way: one tile is all there is", options.tiles);
     if (options.tiles % pairs != 0 || options.tiles < 2 * pairs || options.tiles > pairs * pairs)
         return bad_command(
             "{} tiles of {} x {} colours: there must be 2 to {} for each of the {} pairs of a west and a south colour, equally "
