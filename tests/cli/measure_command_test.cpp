@@ -38,7 +38,7 @@ class Measure : public testing::Test {
 
 TEST_F(Measure, RefusesAMethodItDoesNotKnow) {
     expect_refused(words({"--method", "terain"}), 2,
-                   {"--method terain", "did you mean terrain?", "known: terrain, lod-sprite, caveclod, discrete, full"});
+                   {"--method terain", "did you mean terrain?", "known: terrain, lod-sprite, caveclod, discrete, wang-ldi, full"});
     expect_refused(words({"--method", "terrain@error=2"}), 2, {"terrain has no setting error"});
     expect_refused(words({"--method", "terrain", "--sweep", "speed=1,2"}), 2, {"--sweep speed=1,2"});
     expect_refused(words({}), 2, {"--method"});

@@ -79,7 +79,7 @@ TEST_F(Player, RefusesWhatAMethodCannotDo) {
               "player: --method lod-sprit: there is no such method; did you mean lod-sprite? (known: terrain, lod-sprite, "
               "lod-sprite:paper, caveclod, caveclod:paper, caveclod:shared, discrete, discrete:fsi, discrete:fsi-paper, "
               "discrete:switch, "
-              "discrete:blend, discrete:dither, discrete:late)\n");
+              "discrete:blend, discrete:dither, discrete:late, wang-ldi, wang-ldi:paper)\n");
 }
 
 TEST_F(Player, DrawsLodSpriteInAWindowAsWithoutOne) {

@@ -159,7 +159,7 @@ TEST_F(StreamedMeshPlayer, RefusesInOneLine) {
         for (const std::string& part : parts) EXPECT_NE(output_.find(part), std::string::npos) << output_;
     };
     for (const char* method : {"discrete", "caveclod:paper", "caveclod:shared"})
-        refused(2, mesh_ + " --stream-memory 64M --method " + method, {"--stream-memory", method, "terrain and caveclod"});
+        refused(2, mesh_ + " --stream-memory 64M --method " + method, {"--stream-memory", method, "terrain, caveclod and wang-ldi"});
     refused(2, mesh_ + " --stream-latency 2", {"--stream-latency", "--stream-memory"});
     refused(2, mesh_ + " --stream-memory 1M --stream-latency 5000", {"--stream-latency 5000", "1000"});
     refused(5, mesh_ + " --stream-memory 1K", {mesh_, "residency budget of 1,024"});
