@@ -2,6 +2,7 @@
 // options. They become points and pictures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -289,7 +290,7 @@ TEST(BakeWangImages, RefusesTilesThatAreTooNear) {
                    {"4,096 are possible"});
     // Nearer than the default of 2.5 tiles, in parts too; nothing is left behind.
     Words near = words_of(folder, "a.ovl");
-    near.back() = "5";
+    *std::next(std::find(near.begin(), near.end(), "--farthest-m")) = "5";
     for (const Words& more : {Words{}, Words{"--part", "1/2"}}) {
         Words words = near;
         words.insert(words.end(), more.begin(), more.end());

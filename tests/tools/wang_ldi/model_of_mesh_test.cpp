@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tools/bake/images.h"
 
 namespace overlook::wang_ldi {
@@ -53,20 +55,27 @@ TEST(Models, KeepHolesColoursAndLeaves) {
 }
 
 TEST(Models, OfFaintSurfacesAreHolesWhereTheyAreBelowTheCutoff) {
-    auto solid_at = [](float alpha, bool has_picture) {
+    auto made = [](float alpha, bool has_picture, bool trims_leaves) {
         mesh::Mesh mesh = leaf_and_bark();
         mesh.surfaces[0].base_colour.a = alpha, mesh.surfaces[0].alpha_cutoff = 0.5f;
         if (!has_picture) mesh.surfaces[0].texture_bytes.clear();
+        ModelOptions options;
+        options.trims_leaves = trims_leaves;
         Models models;
-        EXPECT_TRUE(add_model(mesh, {}, models));
-        EXPECT_TRUE(is_solid(models.meshes[0], 1, 0.1f, 0.1f));
-        return is_solid(models.meshes[0], 0, 0.1f, 0.1f);  // an opaque texel
+        EXPECT_TRUE(add_model(mesh, options, models));
+        return models;
     };
     for (bool has_picture : {false, true}) {
-        EXPECT_FALSE(solid_at(0, has_picture));
-        EXPECT_FALSE(solid_at(0.4f, has_picture));
-        EXPECT_TRUE(solid_at(0.5f, has_picture));
-        EXPECT_TRUE(solid_at(1, has_picture));
+        for (float alpha : {0.0f, 0.4f, 0.5f, 1.0f}) {
+            Models whole = made(alpha, has_picture, false);
+            ASSERT_EQ(whole.meshes[0].triangles.size(), 2u);
+            EXPECT_EQ(is_solid(whole.meshes[0], 0, 0.1f, 0.1f), alpha >= 0.5f) << alpha;  // an opaque texel
+            EXPECT_TRUE(is_solid(whole.meshes[0], 1, 0.1f, 0.1f));
+            // Of a leaf that is nowhere solid nothing is left; the bark stays.
+            std::vector<uint32_t> left = made(alpha, has_picture, true).skins[0].looks_of;
+            EXPECT_EQ(std::count(left.begin(), left.end(), 0u) > 0, alpha >= 0.5f) << alpha;
+            EXPECT_EQ(std::count(left.begin(), left.end(), 1u), 1);
+        }
     }
 }
 
