@@ -56,7 +56,8 @@ caveclod::Distance distance_of_billboards(const Chain& chain, const Level& level
         if (finest.empty() && drawn.most.empty()) continue;
         caveclod::Distance distance{0, 2 * chain.radius_m};
         if (!finest.empty() && !drawn.least.empty())
-            distance = distance_to_drawn(finest, drawn, options.gap, options.floor_share * chain.radius_m, options.most_steps);
+            distance = distance_to_drawn(finest, drawn, options.gap, options.floor_share * chain.radius_m, options.most_steps,
+                                         options.enough_m);
         worst = {std::max(worst.least_m, distance.least_m), std::max(worst.most_m, distance.most_m)};
     }
     return worst;
@@ -121,12 +122,14 @@ Result<ChainProof> prove(const Chain& chain, std::span<const mesh::MeshFile> sou
         const Level& level = chain.levels[k];
         LevelProof& found = proof.levels[k];
         found.rung = level.rung, found.triangle_count = level.triangle_count(), found.stated_m = double(level.error_m);
+        LevelsChainOptions asked = options;
+        asked.enough_m = found.stated_m * (1 + 1e-6) + rounding_m;
         if (level.rung == Rung::billboards)
-            found.measured = distance_of_billboards(chain, level, *masks, options);
+            found.measured = distance_of_billboards(chain, level, *masks, asked);
         else if (k > 0)
-            found.measured = distance_of_levels(chain, chain.levels[0], level, options);
-        found.is_broken = found.measured.least_m > found.stated_m * (1 + 1e-6) + rounding_m;
-        found.is_proven = found.measured.most_m <= found.stated_m * (1 + 1e-6) + rounding_m;
+            found.measured = distance_of_levels(chain, chain.levels[0], level, asked);
+        found.is_broken = found.measured.least_m > asked.enough_m;
+        found.is_proven = found.measured.most_m <= asked.enough_m;
         found.stated_lost = double(level.lost_area_share), found.stated_added = double(level.added_area_share);
         found.lost = finest_area_m2 > 0 ? std::max(0.0, 1 - area_of(chain, level) / finest_area_m2) : 0;
     });

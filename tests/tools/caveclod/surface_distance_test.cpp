@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "tests/tools/caveclod/test_meshes.h"
@@ -51,6 +52,26 @@ TEST(SurfaceDistance, HoldsBothBoundsWhenStoppedEarly) {
         EXPECT_LE(early.least_m, exact.most_m);
         EXPECT_GE(early.most_m, exact.least_m);
     }
+}
+
+TEST(SurfaceDistance, SaysWhetherItIsEnoughInWhateverOrderTrianglesCome) {
+    mesh::Mesh smooth = test::sphere(20, 10), rough = test::sphere(40, 20, 0.05);
+    auto of_smooth = test::triangles_of(smooth.positions_m, smooth.faces);
+    auto of_rough = test::triangles_of(rough.positions_m, rough.faces);
+    double exact_m = two_sided_distance(TriangleTree(of_smooth), TriangleTree(of_rough), 1e-5, 1e-9, 1000000).most_m;
+    std::mt19937 random(3);
+    int missed_by_gap = 0;
+    for (int order = 0; order < 20; ++order) {
+        std::shuffle(of_smooth.begin(), of_smooth.end(), random), std::shuffle(of_rough.begin(), of_rough.end(), random);
+        TriangleTree a(of_smooth), b(of_rough);
+        double enough_m = 1.0001 * exact_m;
+        Distance asked = two_sided_distance(a, b, 0.02, 1e-9, 1000000, enough_m);
+        EXPECT_LE(asked.most_m, enough_m);
+        EXPECT_LE(asked.least_m, asked.most_m);
+        missed_by_gap += two_sided_distance(a, b, 0.02, 1e-9, 1000000).most_m > enough_m;
+        EXPECT_GT(two_sided_distance(a, b, 0.02, 1e-9, 1000000, 0.999 * exact_m).least_m, 0.999 * exact_m);
+    }
+    EXPECT_GT(missed_by_gap, 0);  // a bound within a gap may be above it
 }
 
 TEST(TriangleTree, FindsTheNearestOfAll) {

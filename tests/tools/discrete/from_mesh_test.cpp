@@ -44,6 +44,33 @@ mesh::MeshFile ball(uint32_t rings, uint32_t sides) {
     return test::file_of(shapes.take());
 }
 
+// Cards in no order, none of which touches another: what stands one after the other in a level stands near each other.
+TEST(LevelOrder, KeepsNeighboursTogetherWhereNothingConnectsThem) {
+    Shape shape;
+    uint32_t seed = 1;
+    auto number = [&] { return double((seed = seed * 1664525u + 1013904223u) >> 8) / double(1 << 24); };
+    for (uint32_t f = 0; f < 4000; ++f) {
+        glm::dvec3 at_m(number(), number(), number());
+        for (int corner = 0; corner < 3; ++corner)
+            shape.vertices.push_back(
+                {at_m + 0.01 * glm::dvec3(corner == 1, corner == 2, 0), 0, {0, 0, 1}, {0, 0}, {9, 9, 9, 255}});
+        shape.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+        shape.face_surface.push_back(0);
+    }
+    Grid grid = grid_of(std::span(&shape, 1));
+    double rounding_m = 0;
+    Level level = level_of(shape, grid, rounding_m);
+    ASSERT_EQ(level.indices.size(), 12000u);
+    double sum_m = 0;
+    auto corner_m = [&](size_t i) {
+        const auto& at = level.vertices[level.indices[i]].position;
+        return grid.position_step_m * glm::dvec3(at[0], at[1], at[2]);
+    };
+    for (size_t i = 3; i < level.indices.size(); i += 3) sum_m += glm::distance(corner_m(i), corner_m(i - 3));
+    // In the order in which they come 0.66; 0.06 is about the distance of neighbours.
+    EXPECT_LT(sum_m / 4000, 0.12);
+}
+
 TEST(ChainFromMesh, KeepsEveryBoundAndSavesAsMuchAsAsked) {
     MeshChainReport report;
     Chain chain = chain_of(ball(60, 80), budgeted(), report);

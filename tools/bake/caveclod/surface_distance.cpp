@@ -43,12 +43,16 @@ double most_of(const Piece& piece, const TriangleTree& to) {
 
 }  // namespace
 
-Distance one_sided_distance(const TriangleTree& from, const TriangleTree& to, double gap, double floor_m, uint64_t most_steps) {
+Distance one_sided_distance(const TriangleTree& from, const TriangleTree& to, double gap, double floor_m, uint64_t most_steps,
+                            double enough_m) {
     if (from.triangles().empty()) return {};
     if (to.triangles().empty()) return {1e300, 1e300};
     Distance found;
     std::priority_queue<Piece> pending;
-    auto is_done = [&](double most_m) { return most_m <= found.least_m * (1 + gap) + floor_m; };
+    auto is_done = [&](double most_m) {
+        bool is_asked_more = enough_m == 0 || found.least_m > enough_m;
+        return most_m <= (is_asked_more ? found.least_m * (1 + gap) + floor_m : enough_m);
+    };
     auto push = [&](Piece piece) {
         piece.most_m = most_of(piece, to);
         found.most_m = std::max(found.most_m, std::min(piece.most_m, is_done(piece.most_m) ? piece.most_m : 0));
@@ -92,9 +96,10 @@ Distance one_sided_distance(const TriangleTree& from, const TriangleTree& to, do
     return found;
 }
 
-Distance two_sided_distance(const TriangleTree& a, const TriangleTree& b, double gap, double floor_m, uint64_t most_steps) {
-    Distance there = one_sided_distance(a, b, gap, floor_m, most_steps),
-             back = one_sided_distance(b, a, gap, floor_m, most_steps);
+Distance two_sided_distance(const TriangleTree& a, const TriangleTree& b, double gap, double floor_m, uint64_t most_steps,
+                            double enough_m) {
+    Distance there = one_sided_distance(a, b, gap, floor_m, most_steps, enough_m),
+             back = one_sided_distance(b, a, gap, floor_m, most_steps, enough_m);
     return {std::max(there.least_m, back.least_m), std::max(there.most_m, back.most_m)};
 }
 

@@ -15,10 +15,14 @@ struct Distance {
 // The greatest distance of any point of `from` to `to`. Stops when most_m <= least_m * (1 + gap) + floor_m, or after most_steps
 // halvings (least and most still hold then). The distance to one triangle is convex, so its maximum over a piece is at a corner;
 // pieces are halved where that is not tight enough (M. Guthe, P. Borodin, R. Klein, Fast and Accurate Hausdorff Distance
-// Calculation between Meshes, 2005, with the same bounds).
-Distance one_sided_distance(const TriangleTree& from, const TriangleTree& to, double gap, double floor_m, uint64_t most_steps);
+// Calculation between Meshes, 2005, with the same bounds). With enough_m > 0 it is asked whether most_m <= enough_m: what is
+// known to be within that is not looked at closer, and gap and floor count only once some point is known to be farther; the
+// answer does not hang on the order of triangles then.
+Distance one_sided_distance(const TriangleTree& from, const TriangleTree& to, double gap, double floor_m, uint64_t most_steps,
+                            double enough_m = 0);
 
 // The greater of both ways.
-Distance two_sided_distance(const TriangleTree& a, const TriangleTree& b, double gap, double floor_m, uint64_t most_steps);
+Distance two_sided_distance(const TriangleTree& a, const TriangleTree& b, double gap, double floor_m, uint64_t most_steps,
+                            double enough_m = 0);
 
 }  // namespace overlook::caveclod

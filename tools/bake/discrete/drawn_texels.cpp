@@ -135,11 +135,11 @@ void add_drawn(const Mask& mask, const DrawnTriangle& triangle, DrawnSets& sets)
 }
 
 caveclod::Distance distance_to_drawn(const std::vector<caveclod::Triangle>& thing, const DrawnSets& drawn, double gap,
-                                     double floor_m, uint64_t most_steps) {
+                                     double floor_m, uint64_t most_steps, double enough_m) {
     using caveclod::TriangleTree;
     TriangleTree own(thing), least(drawn.least), most(drawn.most);
     auto way = [&](const TriangleTree& from, const TriangleTree& to) {
-        return caveclod::one_sided_distance(from, to, gap, floor_m, most_steps);
+        return caveclod::one_sided_distance(from, to, gap, floor_m, most_steps, enough_m);
     };
     // What is more lies nearer: from above by the set that is less where distances are to it, by the one that is more where they
     // are from it; from below the other way round.

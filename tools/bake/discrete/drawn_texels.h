@@ -38,9 +38,9 @@ struct DrawnSets {
 // that reaches beyond the middles of the border's texels nothing is for certain, and all may be.
 void add_drawn(const Mask& mask, const DrawnTriangle& triangle, DrawnSets& sets);
 
-// The two-sided distance of a thing to what is drawn of another, from below and from above.
+// The two-sided distance of a thing to what is drawn of another, from below and from above. enough_m: as one_sided_distance.
 caveclod::Distance distance_to_drawn(const std::vector<caveclod::Triangle>& thing, const DrawnSets& drawn, double gap,
-                                     double floor_m, uint64_t most_steps);
+                                     double floor_m, uint64_t most_steps, double enough_m = 0);
 
 // Its most_m alone, for half the work.
 double most_distance_to_drawn(const std::vector<caveclod::Triangle>& thing, const DrawnSets& drawn, double gap, double floor_m,

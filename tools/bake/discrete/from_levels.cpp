@@ -87,7 +87,7 @@ caveclod::Distance distance_of_levels(const Chain& chain, const Level& a, const 
         caveclod::Distance distance{0, 2 * chain.radius_m};
         if (!of_a.empty() && !of_b.empty())
             distance = caveclod::two_sided_distance(caveclod::TriangleTree(of_a), caveclod::TriangleTree(of_b), options.gap,
-                                                    options.floor_share * chain.radius_m, options.most_steps);
+                                                    options.floor_share * chain.radius_m, options.most_steps, options.enough_m);
         worst = {std::max(worst.least_m, distance.least_m), std::max(worst.most_m, distance.most_m)};
     }
     return worst;

@@ -17,6 +17,7 @@ struct LevelsChainOptions {
     double gap = 0.02;           // a bound is at most so much above a distance that some point has ..
     double floor_share = 1e-5;   // .. or this share of the thing's size, whichever is more
     uint64_t most_steps = 1u << 22;
+    double enough_m = 0;  // as one_sided_distance
 };
 
 struct MeasuredLevel {

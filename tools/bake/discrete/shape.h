@@ -44,8 +44,8 @@ struct Grid {
 };
 Grid grid_of(std::span<const Shape> shapes);
 
-// Lays a shape on the grid: vertices made one where nothing tells them apart, triangles by surface and in the order that suits
-// vertex caches. rounding_m grows to how far a vertex was moved. Same shape, same level.
+// Lays a shape on the grid: vertices made one where nothing tells them apart, triangles by surface, those near each
+// other together, and in the order that suits vertex caches. rounding_m grows to how far a vertex was moved. Same shape, same level.
 Level level_of(const Shape& shape, const Grid& grid, double& rounding_m);
 
 // What is drawn of a level, on its grid; by part, or all.
