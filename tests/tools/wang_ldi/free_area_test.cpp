@@ -6,7 +6,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr Rect kUnit{0, 0, 1, 1};
+constexpr Bounds kUnit{0, 0, 1, 1};
 
 TEST(FreeArea, OfNothingIsNoPlace) {
     DiscGrid discs(kUnit, 1);
@@ -38,7 +38,7 @@ TEST(FreeArea, IsHitAsOftenAsItIsLarge) {
     DiscGrid discs(kUnit, 0.25);
     double left = 0;
     for (uint64_t seed = 1; seed <= 2000; ++seed) {
-        std::vector<Rect> rects{{0, 0, 0.5, 0.5}, {0.5, 0, 1, 1}};
+        std::vector<Bounds> rects{{0, 0, 0.5, 0.5}, {0.5, 0, 1, 1}};
         FreeArea area(rects, 0.1, 1e-3);
         Random random(seed);
         left += area.draw(discs, random)->x < 0.5;
@@ -47,7 +47,7 @@ TEST(FreeArea, IsHitAsOftenAsItIsLarge) {
 }
 
 TEST(FreeArea, IsFilledUntilAFineGridOfPointsFindsNoPlace) {
-    Rect all{0, 0, 8, 8};
+    Bounds all{0, 0, 8, 8};
     DiscGrid discs(all, 0.3);
     FreeArea area(std::span(&all, 1), 0.3, 1e-5);
     Random random(4);

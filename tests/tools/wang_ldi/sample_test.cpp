@@ -11,7 +11,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-Stage staged(const Models& models, std::vector<rays::Copy> copies) {
+TraceStage staged(const Models& models, std::vector<rays::Copy> copies) {
     auto stage = stage_of(models, std::move(copies), uint64_t(1) << 32);
     EXPECT_TRUE(stage) << stage.error().message;
     return std::move(*stage);
@@ -23,7 +23,7 @@ rays::Copy at(uint32_t model, float x, float y) {
 struct Field {
     Models models = plants::models();
     Planting planting = plants::planting(3);
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     ImageSet set = plants::image_set();
 
     Field() { stages.push_back(staged(models, copies_of(plants::one_tile(), planting, {0, 0, 0, 0, 0, 0, 0, 0, 0}))); }
@@ -32,7 +32,7 @@ struct Field {
 TEST(Samples, LieWithinACubeOfTheSurfaceThatTheyWereMetOn) {
     Models models;
     models.meshes = {plants::ball(0.8f, 1, 40)}, models.skins = {Skin{}};
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, {at(0, 2, 2)}));
     ImageSet set = plants::image_set();
     set.high_m = 2;
@@ -65,7 +65,7 @@ TEST(Samples, OfPackedBallsLackNoMoreThanTheEstimateSaysOfAMillionRays) {
     models.meshes = {plants::ball(0.25f, 0.25f, 12)}, models.skins = {Skin{}};
     std::vector<rays::Copy> copies;
     for (int i = 0; i < 64; ++i) copies.push_back(at(0, 0.25f + 0.5f * float(i % 8), 0.25f + 0.5f * float(i / 8)));
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, copies));
     ImageSet set = plants::image_set();
     set.high_m = 0.5, set.levels[0].side_px = 90;
@@ -92,7 +92,7 @@ TEST(Samples, OfABladeInAWideTileAreNotTakenForAllAfterAFewHits) {
     models.meshes = {rays::Mesh()}, models.skins = {Skin{}};
     plants::add_triangle(models.meshes[0], {-0.01f, 0, 0}, {0.01f, 0, 0}, {0.01f, 0, 1.2f});
     plants::add_triangle(models.meshes[0], {-0.01f, 0, 0}, {0.01f, 0, 1.2f}, {-0.01f, 0, 1.2f});
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, {at(0, 15, 15)}));
     ImageSet set = plants::image_set();
     set.tile_m = 30, set.high_m = 1.3, set.cell.nearest_m = 75, set.cell.farthest_m = 110;
@@ -119,7 +119,7 @@ TEST(Samples, StopAfterTheRaysThatThePaperShoots) {
 
 TEST(Samples, OfAnEmptyTileAreNone) {
     Models models = plants::models();
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, {}));
     Sampled all = sampled(models, stages, wedge_of(plants::image_set(), 0, 0), {});
     EXPECT_EQ(all.samples.size(), 0u);
@@ -135,7 +135,7 @@ TEST(Samples, ShowNoWallsFromBehindAndNothingThatNeighboursHide) {
     models.skins = {Skin{}, Skin{}};
     ImageSet set = plants::image_set();
     auto copies_met = [&](std::vector<rays::Copy> copies, uint32_t direction) {
-        std::vector<Stage> stages;
+        std::vector<TraceStage> stages;
         stages.push_back(staged(models, std::move(copies)));
         std::set<uint32_t> met;
         for (const Sample& sample : sampled(models, stages, wedge_of(set, 0, direction), {}).samples) met.insert(sample.hit.copy);
@@ -165,7 +165,7 @@ TEST(Samples, OfADirectionShowTheSidesThatItsEyesSee) {
         models.skins[0].looks.push_back({colours[side], rays::kNone, 0});
         models.skins[0].looks_of.insert(models.skins[0].looks_of.end(), {side, side});
     }
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, {at(0, 2, 2)}));
     ImageSet set = plants::image_set();
     set.high_m = 3, set.direction_count = 16;

@@ -10,7 +10,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-Stage staged(const Models& models, std::vector<rays::Copy> copies) {
+TraceStage staged(const Models& models, std::vector<rays::Copy> copies) {
     auto stage = stage_of(models, std::move(copies), uint64_t(1) << 32);
     EXPECT_TRUE(stage) << stage.error().message;
     return std::move(*stage);
@@ -62,7 +62,7 @@ TEST(TextureWalk, PassesEveryTexelOnARayOnceInOrder) {
 TEST(DirectionalTextures, HaveColourHeightAndNormalOfWhatIsSeen) {
     Models models;
     add_board(models, {0.4f, 0, 0}, 0, 1, {1, 0, 0}), add_board(models, {0.4f, 0, 0}, 0.5f, 1, {0, 0, 1});
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, {at(0, 0.5f, 0.5f), at(1, 3.5f, 3.5f)}));
     TextureSet set = unlit(4);
     DirectionalTexture texture = texture_of(models, stages, set, 8, {}, {}).texture;  // eyes in the south
@@ -89,7 +89,7 @@ TEST(DirectionalTextures, HaveColourHeightAndNormalOfWhatIsSeen) {
 
 TEST(DirectionalTextures, OfAnEmptyTileAreEmpty) {
     Models models = plants::models();
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, {}));
     TextureSampled all = texture_of(models, stages, unlit(8), 0, {}, {});
     EXPECT_LT(all.eyes, 100u);
@@ -118,7 +118,7 @@ TEST(DirectionalTextures, DrawnLookLikeWhatRaysSee) {
     add_board(models, {1.8f, 0, 0}, 0, 0.9f, {0.1f, 0.1f, 0.9f});  // in the north of the tile, hidden from there by itself
     std::vector<rays::Copy> copies = copies_of(plants::one_tile(), plants::planting(3), {-1, -1, -1, -1, 0, -1, -1, -1, -1});
     copies.push_back(at(3, 2, 2));
-    std::vector<Stage> stages;
+    std::vector<TraceStage> stages;
     stages.push_back(staged(models, copies));
     TextureSet set = texture_set_of(plants::image_set(), 16);
     TextureOptions options;

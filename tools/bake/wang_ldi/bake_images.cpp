@@ -28,24 +28,24 @@ class TileBake {
   public:
     TileBake(const Models& models, const ImageBake& bake, const ImageSet& set) : models_(models), bake_(bake), set_(set) {}
     // foreign: of other neighbours, to be judged among; or null.
-    Result<Shard> image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const;
-    Shard texture(std::span<const Stage> stages, const TextureSet& set, uint64_t index) const;
+    Result<Shard> image(std::span<const TraceStage> stages, const TraceStage* foreign, const Which& which) const;
+    Shard texture(std::span<const TraceStage> stages, const TextureSet& set, uint64_t index) const;
 
   private:
-    std::vector<glm::vec3> colours_of(std::span<const Stage> stages, const Sampled& sampled, uint64_t seed) const;
+    std::vector<glm::vec3> colours_of(std::span<const TraceStage> stages, const Sampled& sampled, uint64_t seed) const;
     const Models& models_;
     const ImageBake& bake_;
     const ImageSet& set_;
 };
 
-std::vector<glm::vec3> TileBake::colours_of(std::span<const Stage> stages, const Sampled& sampled, uint64_t seed) const {
+std::vector<glm::vec3> TileBake::colours_of(std::span<const TraceStage> stages, const Sampled& sampled, uint64_t seed) const {
     if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, bake_.light, seed);
     std::vector<glm::vec3> colours;
     for (const Sample& sample : sampled.samples) colours.push_back(sample.albedo);
     return colours;
 }
 
-Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreign, const Which& which) const {
+Result<Shard> TileBake::image(std::span<const TraceStage> stages, const TraceStage* foreign, const Which& which) const {
     auto index = int64_t(index_of(set_, which));
     SampleOptions options = bake_.sampling;
     options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
@@ -63,7 +63,7 @@ Result<Shard> TileBake::image(std::span<const Stage> stages, const Stage* foreig
     return shard;
 }
 
-Shard TileBake::texture(std::span<const Stage> stages, const TextureSet& set, uint64_t index) const {
+Shard TileBake::texture(std::span<const TraceStage> stages, const TextureSet& set, uint64_t index) const {
     TextureOptions options = bake_.textures;
     options.seed = hash_of(bake_.seed, kTextureStream, int64_t(index), 0);
     auto direction = uint32_t(index % set.direction_count);
@@ -91,12 +91,12 @@ class SetBake {
 
   private:
     // Those to sample from and, where images are judged, one more, of other neighbours.
-    Result<std::vector<Stage>> stages_of(uint32_t context, uint32_t tile) const;
+    Result<std::vector<TraceStage>> stages_of(uint32_t context, uint32_t tile) const;
     size_t sampled_stages(uint32_t context) const { return context == 1 ? 1 : std::max(1u, bake_.neighbourhoods); }
     // Of a tile, first its images, then its textures. done: called by this thread with the share of them.
     Result<void> bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards, const std::function<void(double)>& done);
     // index: of the images, or behind them of the textures.
-    Result<Shard> made(std::span<const Stage> stages, uint32_t context, uint64_t index) const;
+    Result<Shard> made(std::span<const TraceStage> stages, uint32_t context, uint64_t index) const;
     Result<void> bake_all(ImageWriter* images, const std::function<void(double)>& progress);
     void add_rows(uint64_t first, const std::vector<Shard>& shards);
     Result<void> write_all(container::Writer& writer, const std::function<void(double)>& progress);
@@ -119,8 +119,8 @@ class SetBake {
     ImageReport report_;
 };
 
-Result<std::vector<Stage>> SetBake::stages_of(uint32_t context, uint32_t tile) const {
-    std::vector<Stage> stages;
+Result<std::vector<TraceStage>> SetBake::stages_of(uint32_t context, uint32_t tile) const {
+    std::vector<TraceStage> stages;
     size_t count = sampled_stages(context) + (context == 0 && bake_.judged_views > 0 ? 1 : 0);
     for (size_t n = 0; n < count; ++n) {
         auto around =
@@ -132,9 +132,9 @@ Result<std::vector<Stage>> SetBake::stages_of(uint32_t context, uint32_t tile) c
     return stages;
 }
 
-Result<Shard> SetBake::made(std::span<const Stage> stages, uint32_t context, uint64_t index) const {
+Result<Shard> SetBake::made(std::span<const TraceStage> stages, uint32_t context, uint64_t index) const {
     size_t own = sampled_stages(context);
-    const Stage* foreign = stages.size() > own ? &stages.back() : nullptr;
+    const TraceStage* foreign = stages.size() > own ? &stages.back() : nullptr;
     if (index < set_.ldi_count()) return one_.image(stages.first(own), foreign, which_of(set_, index));
     return one_.texture(stages.first(own), textures_, index - set_.ldi_count());
 }

@@ -35,6 +35,7 @@ void add_models(const Models& models, Key& key) {
         const rays::Mesh& mesh = models.meshes[m];
         const Skin& skin = models.skins[m];
         key.add_row(mesh.positions_m), key.add_row(mesh.triangles), key.add_row(mesh.uvs), key.add_row(mesh.masks_of);
+        key.add(uint64_t(mesh.masks.size())), key.add(uint64_t(skin.textures.size()));
         for (const rays::Mask& mask : mesh.masks) key.add(mask.width_px), key.add(mask.least), key.add_row(mask.opacity);
         key.add_row(skin.normals), key.add_row(skin.colours), key.add_row(skin.looks_of), key.add_row(skin.looks);
         for (const Texture& texture : skin.textures) key.add(texture.width_px), key.add_row(texture.pixels);
@@ -43,11 +44,13 @@ void add_models(const Models& models, Key& key) {
 
 void add_planting(const TileSet& tiles, const Planting& planting, Key& key) {
     key.add_row(tiles.tiles), key.add(planting.tile_size_m);
-    for (const auto& objects : planting.tiles)
+    for (const auto& objects : planting.tiles) {
+        key.add(uint64_t(objects.size()));
         for (const Planted& object : objects) {
             key.add(object.model), key.add(object.x_m), key.add(object.y_m), key.add(object.turn_rad), key.add(object.scale);
             key.add(uint32_t(object.owner));
         }
+    }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace overlook::wang_ldi {
 struct Disc {
     double x = 0, y = 0, radius = 0;
 };
-struct Rect {
+struct Bounds {
     double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
     double area() const { return (high_x - low_x) * (high_y - low_y); }
 };
@@ -19,7 +19,7 @@ struct Rect {
 class DiscGrid {
   public:
     // bounds: where middles lie, anything beyond is put to its border; most_radius: of discs and of what is asked about.
-    DiscGrid(const Rect& bounds, double most_radius)
+    DiscGrid(const Bounds& bounds, double most_radius)
         : bounds_(bounds),
           side_(2 * most_radius),
           columns_(count(bounds.high_x - bounds.low_x)),
@@ -47,7 +47,7 @@ class DiscGrid {
         return least;
     }
     // Whether one disc alone leaves no place in `rect` (of a side up to most_radius) for a middle of `radius`.
-    bool is_covered(const Rect& rect, double radius) const {
+    bool is_covered(const Bounds& rect, double radius) const {
         double x = (rect.low_x + rect.high_x) / 2, y = (rect.low_y + rect.high_y) / 2;
         double half_x = rect.high_x - x, half_y = rect.high_y - y;
         bool is_covered = false;
@@ -64,7 +64,7 @@ class DiscGrid {
     int column(double x) const { return std::clamp(int(std::floor((x - bounds_.low_x) / side_)), 0, columns_ - 1); }
     int row(double y) const { return std::clamp(int(std::floor((y - bounds_.low_y) / side_)), 0, rows_ - 1); }
 
-    Rect bounds_;
+    Bounds bounds_;
     double side_;
     int columns_, rows_;
     std::vector<std::vector<Disc>> squares_;

@@ -2,8 +2,8 @@
 
 namespace overlook::wang_ldi {
 
-FreeArea::FreeArea(std::span<const Rect> rects, double radius, double tolerance) : radius_(radius), tolerance_(tolerance) {
-    for (const Rect& rect : rects) {
+FreeArea::FreeArea(std::span<const Bounds> rects, double radius, double tolerance) : radius_(radius), tolerance_(tolerance) {
+    for (const Bounds& rect : rects) {
         int columns = std::max(1, int(std::ceil((rect.high_x - rect.low_x) / radius)));
         int rows = std::max(1, int(std::ceil((rect.high_y - rect.low_y) / radius)));
         double width = (rect.high_x - rect.low_x) / columns, height = (rect.high_y - rect.low_y) / rows;
@@ -15,21 +15,21 @@ FreeArea::FreeArea(std::span<const Rect> rects, double radius, double tolerance)
     }
 }
 
-void FreeArea::push(const Rect& square, size_t level) {
+void FreeArea::push(const Bounds& square, size_t level) {
     if (squares_.size() <= level) squares_.resize(level + 1), area_.resize(level + 1, 0);
     squares_[level].push_back(square), area_[level] += square.area();
 }
 
-Rect FreeArea::take(Random& random, size_t& level) {
+Bounds FreeArea::take(Random& random, size_t& level) {
     double all = 0;
     for (double area : area_) all += area;
     double left = random.next_unit() * all;
     for (level = 0; level + 1 < squares_.size() && (squares_[level].empty() || left >= area_[level]); ++level)
         left -= area_[level];
     while (squares_[level].empty()) level = level == 0 ? squares_.size() - 1 : level - 1;
-    std::vector<Rect>& from = squares_[level];
+    std::vector<Bounds>& from = squares_[level];
     std::swap(from[random.next_below(uint32_t(from.size()))], from.back());
-    Rect square = from.back();
+    Bounds square = from.back();
     from.pop_back();
     area_[level] = from.empty() ? 0 : area_[level] - square.area();
     while (!squares_.empty() && squares_.back().empty()) squares_.pop_back(), area_.pop_back();
@@ -39,7 +39,7 @@ Rect FreeArea::take(Random& random, size_t& level) {
 std::optional<FreeArea::Place> FreeArea::draw(const DiscGrid& discs, Random& random) {
     while (!squares_.empty()) {
         size_t level = 0;
-        Rect square = take(random, level);
+        Bounds square = take(random, level);
         if (discs.is_covered(square, radius_)) continue;
         double x = square.low_x + random.next_unit() * (square.high_x - square.low_x);
         double y = square.low_y + random.next_unit() * (square.high_y - square.low_y);

@@ -17,7 +17,7 @@ class FreeArea {
   public:
     // A middle that is looked for lies in one of `rects` (which do not overlap) and has `radius` clear around it. Squares are
     // halved down to a side of `tolerance`: when draw() finds nothing, a radius larger by 1.5 * tolerance has a place nowhere.
-    FreeArea(std::span<const Rect> rects, double radius, double tolerance);
+    FreeArea(std::span<const Bounds> rects, double radius, double tolerance);
 
     struct Place {
         double x = 0, y = 0;
@@ -28,12 +28,12 @@ class FreeArea {
     std::optional<Place> draw(const DiscGrid& discs, Random& random);
 
   private:
-    void push(const Rect& square, size_t level);
-    Rect take(Random& random, size_t& level);
+    void push(const Bounds& square, size_t level);
+    Bounds take(Random& random, size_t& level);
 
     double radius_, tolerance_;
-    std::vector<std::vector<Rect>> squares_;  // [level], each of half the side
-    std::vector<double> area_;                // [level]
+    std::vector<std::vector<Bounds>> squares_;  // [level], each of half the side
+    std::vector<double> area_;                  // [level]
 };
 
 }  // namespace overlook::wang_ldi

@@ -54,7 +54,7 @@ void compare(const Warped& truth, const Warped& drawn, double pixel_m, Judgement
 
 }  // namespace
 
-Warped traced(const Models& models, const Stage& stage, const ImageSet& set, const view::Camera& camera, const Light& light,
+Warped traced(const Models& models, const TraceStage& stage, const ImageSet& set, const view::Camera& camera, const Light& light,
               uint64_t seed) {
     Warped truth;
     truth.clear(camera.width_px, camera.height_px);
@@ -93,7 +93,7 @@ view::Camera view_of(const ImageSet& set, uint32_t level, uint32_t direction, co
     return camera;
 }
 
-Judgement judged(const Models& models, const Stage& stage, const ImageSet& set, const Which& which, const Ldi& ldi,
+Judgement judged(const Models& models, const TraceStage& stage, const ImageSet& set, const Which& which, const Ldi& ldi,
                  const Light& light, const Judging& judging) {
     Judgement judgement;
     std::vector<double> errors;

@@ -31,13 +31,13 @@ struct Judgement {
 
 // What rays say: pixels as Warped, of the tile alone (its square), everything else hiding it. Lit, or the albedo where the set
 // has normals.
-Warped traced(const Models& models, const Stage& stage, const ImageSet& set, const view::Camera& camera, const Light& light,
+Warped traced(const Models& models, const TraceStage& stage, const ImageSet& set, const view::Camera& camera, const Light& light,
               uint64_t seed);
 
 // A view of the wedge of (level, direction): its eye anywhere in it.
 view::Camera view_of(const ImageSet& set, uint32_t level, uint32_t direction, const Judging& judging, uint32_t view);
 
-Judgement judged(const Models& models, const Stage& stage, const ImageSet& set, const Which& which, const Ldi& ldi,
+Judgement judged(const Models& models, const TraceStage& stage, const ImageSet& set, const Which& which, const Ldi& ldi,
                  const Light& light, const Judging& judging);
 
 // For the eye: nothing becomes the background's grey.

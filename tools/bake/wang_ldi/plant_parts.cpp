@@ -42,17 +42,17 @@ double greatest_radius(const PlantOptions& options) {
 
 Regions::Regions(const PlantOptions& options) : size(options.tile_size_m), reach(edge_reach_m(options)), arm(arm_of(reach)) {}
 
-std::vector<Rect> Regions::corner(double inset) const {
+std::vector<Bounds> Regions::corner(double inset) const {
     double a = arm - inset, r = reach - inset;
     return {{-a, -r, a, r}, {-r, r, r, a}, {-r, -a, r, -r}};
 }
-std::vector<Rect> Regions::horizontal_edge(double inset) const {
+std::vector<Bounds> Regions::horizontal_edge(double inset) const {
     return {{arm, inset - reach, size - arm, reach - inset}};
 }
-std::vector<Rect> Regions::vertical_edge(double inset) const {
+std::vector<Bounds> Regions::vertical_edge(double inset) const {
     return {{inset - reach, arm, reach - inset, size - arm}};
 }
-std::vector<Rect> Regions::interior() const {
+std::vector<Bounds> Regions::interior() const {
     return {{reach, reach, size - reach, size - reach}};
 }
 

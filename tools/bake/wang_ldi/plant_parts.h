@@ -32,10 +32,10 @@ struct Regions {
 
     explicit Regions(const PlantOptions& options);
     // inset: without what is so near the border to what is planted later. Metres, below reach.
-    std::vector<Rect> corner(double inset = 0) const;
-    std::vector<Rect> horizontal_edge(double inset = 0) const;
-    std::vector<Rect> vertical_edge(double inset = 0) const;
-    std::vector<Rect> interior() const;
+    std::vector<Bounds> corner(double inset = 0) const;
+    std::vector<Bounds> horizontal_edge(double inset = 0) const;
+    std::vector<Bounds> vertical_edge(double inset = 0) const;
+    std::vector<Bounds> interior() const;
 };
 
 double least_radius(const PlantOptions& options);     // packing, of those by weight

@@ -7,9 +7,9 @@
 namespace overlook::wang_ldi {
 namespace {
 
-bool is_in(const std::vector<Rect>& rects, double x, double y) {
+bool is_in(const std::vector<Bounds>& rects, double x, double y) {
     return std::any_of(rects.begin(), rects.end(),
-                       [&](const Rect& r) { return x >= r.low_x && x <= r.high_x && y >= r.low_y && y <= r.high_y; });
+                       [&](const Bounds& r) { return x >= r.low_x && x <= r.high_x && y >= r.low_y && y <= r.high_y; });
 }
 
 // One planting at full density, of everything that owns objects.
@@ -25,7 +25,7 @@ class Planter : public OwnedObjects {
 
     // Exit::bad_input if something that is wanted in every tile has no place.
     Result<void> run() {
-        Rect about{-2 * regions_.arm, -2 * regions_.arm, 2 * regions_.arm, 2 * regions_.arm};
+        Bounds about{-2 * regions_.arm, -2 * regions_.arm, 2 * regions_.arm, 2 * regions_.arm};
         for (size_t c = 0; c < set_.corner_density.size(); ++c)
             corners.push_back(fill({about}, regions_.corner(), regions_.corner(deep()), {}, Owner::corner,
                                    1.0 / double(set_.corner_density.size())));
@@ -61,7 +61,7 @@ class Planter : public OwnedObjects {
     double deep() const { return std::min(least_radius(options_), 0.999 * regions_.reach); }
 
     // Fills `all`, keeps what stands in `own`, and then fills what that leaves of `deep`.
-    Objects fill(const std::vector<Rect>& all, const std::vector<Rect>& own, const std::vector<Rect>& deep,
+    Objects fill(const std::vector<Bounds>& all, const std::vector<Bounds>& own, const std::vector<Bounds>& deep,
                  const std::vector<Disc>& around, Owner owner, double share) {
         Objects objects;
         throw_until_full(all, own, around, owner, share, objects);
@@ -71,7 +71,7 @@ class Planter : public OwnedObjects {
         return objects;
     }
 
-    void throw_until_full(const std::vector<Rect>& all, const std::vector<Rect>& own, const std::vector<Disc>& around,
+    void throw_until_full(const std::vector<Bounds>& all, const std::vector<Bounds>& own, const std::vector<Disc>& around,
                           Owner owner, double share, Objects& objects) {
         DiscGrid grid = grid_of(around);
         for (const Placed& object : objects) grid.add({object.x, object.y, object.radius + slack()});
@@ -92,7 +92,7 @@ class Planter : public OwnedObjects {
         for (const Placed& object : corners[edge.low]) around.push_back(object.disc());
         for (const Placed& object : corners[edge.high]) around.push_back(object.disc(along_x, along_y));
         double reach = 3 * regions_.reach;
-        Rect about = is_horizontal ? Rect{0, -reach, regions_.size, reach} : Rect{-reach, 0, reach, regions_.size};
+        Bounds about = is_horizontal ? Bounds{0, -reach, regions_.size, reach} : Bounds{-reach, 0, reach, regions_.size};
         return fill({about}, is_horizontal ? regions_.horizontal_edge() : regions_.vertical_edge(),
                     is_horizontal ? regions_.horizontal_edge(deep()) : regions_.vertical_edge(deep()), around,
                     is_horizontal ? Owner::horizontal_edge : Owner::vertical_edge,
@@ -120,7 +120,7 @@ class Planter : public OwnedObjects {
         std::vector<Disc> discs = around_tile(set_.tiles[t]);
         for (const Placed& object : interiors[t]) discs.push_back(object.disc());
         DiscGrid grid = grid_of(discs);
-        Rect tile{0, 0, regions_.size, regions_.size};
+        Bounds tile{0, 0, regions_.size, regions_.size};
         FreeArea area(std::span(&tile, 1), least_radius(options_) + slack(), kPlaceTolerance * least_radius(options_));
         while (auto place = area.draw(grid, random_)) {
             if (!is_in(regions_.interior(), place->x, place->y)) return place;
@@ -218,7 +218,7 @@ class Planter : public OwnedObjects {
             DiscGrid grid = grid_of(around);
             Planted planted = choice_.of_model(m, greatest_radius(options_), random_);
             double radius = packing_radius(options_, planted), margin = std::max(radius, regions_.reach);
-            Rect inside{margin, margin, regions_.size - margin, regions_.size - margin};
+            Bounds inside{margin, margin, regions_.size - margin, regions_.size - margin};
             FreeArea area(std::span(&inside, 1), radius + slack(), kPlaceTolerance * radius);
             auto place = area.draw(grid, random_);
             if (!place)

@@ -96,7 +96,7 @@ uint32_t tiles_with_a_place(const TileSet& set, const Planting& planting, double
         std::vector<Planted> all = overhang(set, planting, t);
         all.insert(all.end(), planting.tiles[t].begin(), planting.tiles[t].end());
         for (const Planted& object : all) grid.add({double(object.x_m), double(object.y_m), packing_of(planting, object)});
-        Rect tile{0, 0, size, size};
+        Bounds tile{0, 0, size, size};
         FreeArea area(std::span(&tile, 1), least_radius_m + slack, 1e-4 * least_radius_m);
         Random random(t);
         count += area.draw(grid, random).has_value();
@@ -109,14 +109,14 @@ double more_per_tile(const Planting& planting, const Tiling& tiling, double radi
     for (const auto& tile : planting.tiles)
         for (const Planted& object : tile) most = std::max(most, packing_of(planting, object));
     most += slack;
-    Rect all{0, 0, tiling.columns * size, tiling.rows * size};
+    Bounds all{0, 0, tiling.columns * size, tiling.rows * size};
     DiscGrid grid(all, most);
     for (uint32_t y = 0; y < tiling.rows; ++y)
         for (uint32_t x = 0; x < tiling.columns; ++x)
             for (const Planted& object : planting.tiles[tiling.at(x, y)])
                 grid.add({x * size + double(object.x_m), y * size + double(object.y_m), packing_of(planting, object)});
     // Without the outermost tiles, whose surroundings are not there.
-    Rect within{size, size, all.high_x - size, all.high_y - size};
+    Bounds within{size, size, all.high_x - size, all.high_y - size};
     FreeArea area(std::span(&within, 1), radius_m + slack, 1e-3 * radius_m);
     Random random(seed);
     uint64_t more = 0;

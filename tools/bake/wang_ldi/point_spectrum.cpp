@@ -24,7 +24,7 @@ Points points_of(const Planting& planting, const Tiling& tiling) {
 }
 
 Points poisson_disk_points(double size_m, double radius_m, uint64_t seed) {
-    Rect all{0, 0, size_m, size_m};
+    Bounds all{0, 0, size_m, size_m};
     DiscGrid grid(all, radius_m);
     FreeArea area(std::span(&all, 1), radius_m, 1e-3 * radius_m);
     Random random(seed);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/bake/wang_ldi/cube_table.h"
+#include "tools/bake/wang_ldi/held_out.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -12,9 +13,6 @@ constexpr uint32_t kLayersLog2 = 24;  // of cubes above each other
 constexpr uint32_t kMostLooks = 4;    // of what is met in a cube, so many first ones are looked at: its colour and normal
 
 constexpr uint32_t kLeastRaysPerEye = 1024;
-// Over the goal: of so many hits some would be in cubes of one eye, were the goal's share unseen, but for 2 % of the cases (e^-4).
-constexpr double kLeastHits = 4;
-constexpr uint64_t kEyesOfNothing = 4;  // times the least: then a tile is empty
 
 // The cube that a place is in; false outside of the tile.
 bool cube_of(const Wedge& wedge, const glm::dvec3& at, uint64_t& cube) {
@@ -29,9 +27,9 @@ bool cube_of(const Wedge& wedge, const glm::dvec3& at, uint64_t& cube) {
 struct Cube {
     double height_sum_m = 0;
     glm::vec3 albedo_sum{0}, normal_sum{0};
-    uint32_t met = 0, looks = 0;
-    bool is_of_one_eye = true;
-    uint64_t place = 0, eye = 0;  // the first that met it
+    HeldOut::Met met;
+    uint32_t looks = 0;
+    uint64_t place = 0;
     rays::Hit first;
     uint32_t stage = 0;
     glm::vec3 seen_along{0};
@@ -40,26 +38,24 @@ struct Cube {
 class Sampler {
   public:
     Sampler(const Models& models, const Wedge& wedge) : models_(models), wedge_(wedge) {}
-    void shoot(std::span<const Stage> stages, size_t stage, const Eye& eye);
-    // The rays of an eye are no draws at random, they meet the same cubes over and over; eyes are. So each eye is held out in turn:
-    // of its hits, those in cubes that no other has met.
-    double unseen_share() const { return hits_ == 0 ? 0 : double(of_one_eye_) / double(hits_); }
+    void shoot(std::span<const TraceStage> stages, size_t stage, const Eye& eye);
+    const HeldOut& held_out() const { return held_out_; }
     uint64_t rays() const { return rays_; }
-    uint64_t hits() const { return hits_; }
     Sampled take();
 
   private:
-    void keep(std::span<const Stage> stages, size_t stage, const rays::Ray& ray, const rays::Hit& hit);
+    void keep(std::span<const TraceStage> stages, size_t stage, const rays::Ray& ray, const rays::Hit& hit);
 
     const Models& models_;
     const Wedge& wedge_;
     CubeTable table_;
     std::vector<Cube> cubes_;
     std::vector<rays::Hit> found_;
-    uint64_t rays_ = 0, hits_ = 0, of_one_eye_ = 0, eyes_ = 0;  // of_one_eye_: hits in cubes that one eye alone has met
+    HeldOut held_out_;
+    uint64_t rays_ = 0, eyes_ = 0;
 };
 
-void Sampler::keep(std::span<const Stage> stages, size_t stage, const rays::Ray& ray, const rays::Hit& hit) {
+void Sampler::keep(std::span<const TraceStage> stages, size_t stage, const rays::Ray& ray, const rays::Hit& hit) {
     glm::dvec3 at = glm::dvec3(ray.from_m) + double(hit.distance) * glm::dvec3(ray.along);
     uint64_t place = 0;
     if (!cube_of(wedge_, at, place)) return;
@@ -67,19 +63,17 @@ void Sampler::keep(std::span<const Stage> stages, size_t stage, const rays::Ray&
     if (number == cubes_.size()) {
         cubes_.emplace_back();
         cubes_.back().place = place, cubes_.back().first = hit, cubes_.back().seen_along = ray.along;
-        cubes_.back().stage = uint32_t(stage), cubes_.back().eye = eyes_;
+        cubes_.back().stage = uint32_t(stage);
     }
     Cube& cube = cubes_[number];
-    ++hits_, ++cube.met;
-    if (cube.is_of_one_eye && cube.eye == eyes_) ++of_one_eye_;
-    if (cube.is_of_one_eye && cube.eye != eyes_) cube.is_of_one_eye = false, of_one_eye_ -= cube.met - 1;
+    held_out_.meet(cube.met, eyes_);
     cube.height_sum_m += at.z - wedge_.low_m;
     if (cube.looks == kMostLooks) return;
     Point point = point_of(models_, stages[stage].copies, hit, ray.along);
     ++cube.looks, cube.albedo_sum += point.albedo, cube.normal_sum += point.normal;
 }
 
-void Sampler::shoot(std::span<const Stage> stages, size_t stage, const Eye& eye) {
+void Sampler::shoot(std::span<const TraceStage> stages, size_t stage, const Eye& eye) {
     found_.resize(eye.rays.size());
     stages[stage].scene.first_hits(eye.rays, found_);
     for (size_t i = 0; i < found_.size(); ++i)
@@ -90,13 +84,13 @@ void Sampler::shoot(std::span<const Stage> stages, size_t stage, const Eye& eye)
 Sampled Sampler::take() {
     std::sort(cubes_.begin(), cubes_.end(), [](const Cube& a, const Cube& b) { return a.place < b.place; });
     Sampled made;
-    made.rays = rays_, made.hits = hits_, made.eyes = eyes_, made.unseen_share = unseen_share();
+    made.rays = rays_, made.hits = held_out_.hits(), made.eyes = eyes_, made.unseen_share = held_out_.unseen_share();
     made.samples.reserve(cubes_.size());
     for (const Cube& cube : cubes_) {
         Sample sample;
-        sample.pixel = uint32_t(cube.place >> kLayersLog2), sample.met = cube.met;
+        sample.pixel = uint32_t(cube.place >> kLayersLog2), sample.met = cube.met.count;
         sample.layer = uint32_t(cube.place & ((1u << kLayersLog2) - 1));
-        sample.height_m = float(cube.height_sum_m / cube.met), sample.albedo = cube.albedo_sum / float(cube.looks);
+        sample.height_m = float(cube.height_sum_m / cube.met.count), sample.albedo = cube.albedo_sum / float(cube.looks);
         float length = glm::length(cube.normal_sum);
         sample.normal = length > 1e-6f ? cube.normal_sum / length : -glm::normalize(cube.seen_along);
         sample.hit = cube.first, sample.stage = cube.stage, sample.seen_along = cube.seen_along;
@@ -112,26 +106,24 @@ uint32_t rays_per_eye(const Wedge& wedge, const SampleOptions& options) {
     return std::clamp(4 * wedge.side_px * wedge.side_px, std::min(kLeastRaysPerEye, options.rays_per_eye), options.rays_per_eye);
 }
 
-Sampled sampled(const Models& models, std::span<const Stage> stages, const Wedge& wedge, const SampleOptions& options) {
+Sampled sampled(const Models& models, std::span<const TraceStage> stages, const Wedge& wedge, const SampleOptions& options) {
     Sampler sampler(models, wedge);
-    double least_hits = kLeastHits / options.unseen_goal;
     auto is_enough = [&](uint64_t eyes) {
         if (options.fixed_rays > 0) return sampler.rays() >= options.fixed_rays;
         if (sampler.rays() >= options.most_rays) return true;
-        return eyes >= options.least_eyes && double(sampler.hits()) >= least_hits &&
-               sampler.unseen_share() <= options.unseen_goal;
+        return (eyes >= options.least_eyes && sampler.held_out().is_within(options.unseen_goal)) ||
+               sampler.held_out().is_of_nothing(eyes, options.least_eyes);
     };
-    // What no ray meets is never met.
-    auto is_empty = [&](uint64_t eyes) { return eyes >= kEyesOfNothing * options.least_eyes && sampler.hits() == 0; };
     Eye one;
-    for (uint64_t eye = 0; !is_enough(eye) && !is_empty(eye); ++eye) {
+    for (uint64_t eye = 0; !is_enough(eye); ++eye) {
         set_eye(wedge, options.seed, eye, rays_per_eye(wedge, options), one);
         sampler.shoot(stages, eye % stages.size(), one);
     }
     return sampler.take();
 }
 
-double unseen_of_held_out(std::span<const Stage> stages, const Wedge& wedge, const Sampled& of, uint64_t rays, uint64_t seed) {
+double unseen_of_held_out(std::span<const TraceStage> stages, const Wedge& wedge, const Sampled& of, uint64_t rays,
+                          uint64_t seed) {
     CubeTable known;
     double per_m = wedge.side_px / wedge.tile_m;
     for (const Sample& sample : of.samples)
@@ -141,7 +133,7 @@ double unseen_of_held_out(std::span<const Stage> stages, const Wedge& wedge, con
     Eye one;
     for (uint64_t eye = 0; shot < rays; ++eye) {
         set_eye(wedge, seed, eye, 1u << 14, one);
-        const Stage& stage = stages[eye % stages.size()];
+        const TraceStage& stage = stages[eye % stages.size()];
         found.resize(one.rays.size());
         stage.scene.first_hits(one.rays, found);
         for (size_t i = 0; i < found.size(); ++i) {

@@ -58,10 +58,11 @@ struct Sampled {
 };
 
 // stages: one or more, of the same tile among different neighbours; eyes take them in turn. Same arguments, same samples.
-Sampled sampled(const Models& models, std::span<const Stage> stages, const Wedge& wedge, const SampleOptions& options);
+Sampled sampled(const Models& models, std::span<const TraceStage> stages, const Wedge& wedge, const SampleOptions& options);
 
 // Of `rays` more rays of eyes of another seed, the share of hits that meet no sample's cube.
-double unseen_of_held_out(std::span<const Stage> stages, const Wedge& wedge, const Sampled& of, uint64_t rays, uint64_t seed);
+double unseen_of_held_out(std::span<const TraceStage> stages, const Wedge& wedge, const Sampled& of, uint64_t rays,
+                          uint64_t seed);
 
 // An eye, with the rays of its raster that pass the tile's box.
 struct Eye {

@@ -93,12 +93,12 @@ glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, 
     return point.albedo * seen;
 }
 
-std::vector<glm::vec3> lit_samples(const Models& models, std::span<const Stage> stages, std::span<const Sample> samples,
+std::vector<glm::vec3> lit_samples(const Models& models, std::span<const TraceStage> stages, std::span<const Sample> samples,
                                    const Light& light, uint64_t seed) {
     std::vector<glm::vec3> colours;
     colours.reserve(samples.size());
     for (const Sample& sample : samples) {
-        const Stage& stage = stages[sample.stage];
+        const TraceStage& stage = stages[sample.stage];
         Point point = point_of(models, stage.copies, sample.hit, sample.seen_along);
         point.albedo = sample.albedo;
         uint64_t own = hash_of(seed, kPatternStream, sample.pixel, sample.layer);

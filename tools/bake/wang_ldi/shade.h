@@ -27,7 +27,7 @@ struct Light {
 glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed);
 
 // [samples] linear colours. seed: of all patterns; each sample's own follows from its pixel and layer.
-std::vector<glm::vec3> lit_samples(const Models& models, std::span<const Stage> stages, std::span<const Sample> samples,
+std::vector<glm::vec3> lit_samples(const Models& models, std::span<const TraceStage> stages, std::span<const Sample> samples,
                                    const Light& light, uint64_t seed);
 
 }  // namespace overlook::wang_ldi

@@ -64,11 +64,11 @@ std::vector<rays::Copy> copies_of(const TileSet& set, const Planting& planting, 
     return copies;
 }
 
-Result<Stage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes) {
+Result<TraceStage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes) {
     bool fits = rays::flattened_bytes(models.meshes, copies) <= memory_bytes;
     auto scene = rays::Scene::build(models.meshes, copies, fits ? rays::Layout::flattened : rays::Layout::instances);
     if (!scene) return tl::unexpected(scene.error());
-    return Stage{std::move(copies), std::move(*scene)};
+    return TraceStage{std::move(copies), std::move(*scene)};
 }
 
 }  // namespace overlook::wang_ldi

@@ -17,7 +17,7 @@
 namespace overlook::wang_ldi {
 
 // In the tile's own frame: its south-west corner at the origin.
-struct Stage {
+struct TraceStage {
     std::vector<rays::Copy> copies;
     rays::Scene scene;
 };
@@ -33,6 +33,6 @@ inline std::array<int, 9> alone(size_t tile) {
 std::vector<rays::Copy> copies_of(const TileSet& set, const Planting& planting, const std::array<int, 9>& tiles);
 
 // Flattened where that takes at most memory_bytes, else as instances. Fails as rays::Scene::build. models must outlive it.
-Result<Stage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes);
+Result<TraceStage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes);
 
 }  // namespace overlook::wang_ldi

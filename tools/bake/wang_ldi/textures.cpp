@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/wang_ldi/random.h"
+#include "tools/bake/wang_ldi/held_out.h"
 #include "tools/bake/wang_ldi/texture_walk.h"
 #include "tools/bake/wang_ldi/textures_opacity.h"
 
@@ -33,16 +34,15 @@ struct Sum {
 
 class TextureSampler {
   public:
-    TextureSampler(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
+    TextureSampler(const Models& models, std::span<const TraceStage> stages, const TextureSet& set, uint32_t direction,
                    const Light& light, const TextureOptions& options);
     TextureSampled run();
 
   private:
     bool is_enough() const;
-    double unseen_share() const { return hits_ == 0 ? 1 : double(met_once_) / double(hits_); }
     double standard_error() const;
-    void see(const Stage& stage);
-    void add_hit(const Stage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at);
+    void see(const TraceStage& stage);
+    void add_hit(const TraceStage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at);
     void sum_up();
     void encode(DirectionalTexture& texture) const;
     void fill_unseen(DirectionalTexture& texture) const;
@@ -50,7 +50,7 @@ class TextureSampler {
     void set_opacity(DirectionalTexture& texture) const;
 
     const Models& models_;
-    std::span<const Stage> stages_;
+    std::span<const TraceStage> stages_;
     const TextureSet& set_;
     Wedge wedge_;
     Light light_;
@@ -59,39 +59,41 @@ class TextureSampler {
     std::vector<Line> lines_;  // the first kMostLines that reach the tile
     std::vector<rays::Hit> found_;
     Eye eye_;
-    uint64_t reaching_ = 0, rays_ = 0, hits_ = 0, met_once_ = 0, eyes_ = 0;
+    HeldOut held_out_;
+    std::vector<HeldOut::Met> met_;  // of the finest picture's texels
+    uint64_t reaching_ = 0, rays_ = 0, eyes_ = 0;
 };
 
-TextureSampler::TextureSampler(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
-                               const Light& light, const TextureOptions& options)
+TextureSampler::TextureSampler(const Models& models, std::span<const TraceStage> stages, const TextureSet& set,
+                               uint32_t direction, const Light& light, const TextureOptions& options)
     : models_(models),
       stages_(stages),
       set_(set),
       wedge_(far_wedge_of(set, direction)),
       light_(light),
       options_(options),
-      sums_(texture_texels(set.side_px)) {
+      sums_(texture_texels(set.side_px)),
+      met_(size_t(set.side_px) * set.side_px) {
     light_.sun_rays = std::max(1u, light.sun_rays / kLightRaysShare);
     light_.sky_rays = std::max(1u, light.sky_rays / kLightRaysShare);
 }
 
-void TextureSampler::add_hit(const Stage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at) {
+void TextureSampler::add_hit(const TraceStage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at) {
     double per_m = set_.side_px / set_.tile_m;
     auto along = [&](double place) { return std::min(size_t(place * per_m), size_t(set_.side_px - 1)); };
     size_t texel = along(at.y) * set_.side_px + along(at.x);
     Point point = point_of(models_, stage.copies, hit, ray.along);
-    glm::vec3 colour =
-        set_.has_normals ? point.albedo : lit(stage.scene, point, light_, hash_of(options_.seed, kHitStream, int64_t(hits_), 0));
+    glm::vec3 colour = set_.has_normals
+                           ? point.albedo
+                           : lit(stage.scene, point, light_, hash_of(options_.seed, kHitStream, int64_t(held_out_.hits()), 0));
     Sum& sum = sums_[texel];
     double luma = luma_of(colour), height_m = at.z - set_.low_m;
-    ++hits_, ++sum.hits;
-    if (sum.hits == 1) ++met_once_;
-    if (sum.hits == 2) --met_once_;
+    held_out_.meet(met_[texel], eyes_), ++sum.hits;
     sum.colour += glm::dvec3(colour), sum.normal += glm::dvec3(point.normal), sum.luma += luma, sum.luma_squared += luma * luma;
     sum.height_m += height_m, sum.height_squared += height_m * height_m;
 }
 
-void TextureSampler::see(const Stage& stage) {
+void TextureSampler::see(const TraceStage& stage) {
     set_eye(wedge_, hash_of(options_.seed, kEyeStream, 0, 0), eyes_, options_.rays_per_eye, eye_);
     found_.resize(eye_.rays.size());
     stage.scene.first_hits(eye_.rays, found_);
@@ -127,16 +129,16 @@ double TextureSampler::standard_error() const {
         if (hits > 1) of_means += variance_sum / double(hits - 1);
     }
     if (freedom == 0) return 1;
-    return std::sqrt((of_means + double(single) * within / double(freedom)) / double(hits_));
+    return std::sqrt((of_means + double(single) * within / double(freedom)) / double(held_out_.hits()));
 }
 
 bool TextureSampler::is_enough() const {
     if (rays_ >= options_.most_rays) return true;
-    if (hits_ == 0) return eyes_ >= 4 * uint64_t(options_.least_eyes);
-    if (eyes_ < options_.least_eyes || unseen_share() > options_.unseen_goal) return false;
+    if (held_out_.hits() == 0) return held_out_.is_of_nothing(eyes_, options_.least_eyes);
+    if (eyes_ < options_.least_eyes || !held_out_.is_within(options_.unseen_goal)) return false;
     double luma = 0;
     for (size_t t = 0; t < size_t(set_.side_px) * set_.side_px; ++t) luma += sums_[t].luma;
-    return standard_error() * double(hits_) <= options_.error_goal * luma;
+    return standard_error() * double(held_out_.hits()) <= options_.error_goal * luma;
 }
 
 // Coarser pictures from finer ones: sums, so nothing is rounded between.
@@ -190,12 +192,13 @@ void TextureSampler::set_opacity(DirectionalTexture& texture) const {
 TextureSampled TextureSampler::run() {
     while (!is_enough()) see(stages_[eyes_ % stages_.size()]);
     TextureSampled made;
-    made.texture.unseen_share = hits_ == 0 ? 0 : float(unseen_share());
-    made.texture.standard_error = hits_ == 0 ? 0 : float(standard_error());
+    uint64_t hits = held_out_.hits();
+    made.texture.unseen_share = float(held_out_.unseen_share());
+    made.texture.standard_error = hits == 0 ? 0 : float(standard_error());
     sum_up(), encode(made.texture);
-    if (hits_ > 0) set_opacity(made.texture);
+    if (hits > 0) set_opacity(made.texture);
     fill_unseen(made.texture);
-    made.rays = rays_, made.hits = hits_, made.eyes = eyes_;
+    made.rays = rays_, made.hits = hits, made.eyes = eyes_;
     return made;
 }
 
@@ -225,7 +228,7 @@ Box box_of(const TextureSet& set, const DirectionalTexture& texture, size_t texe
     return {middle_m - half_m, middle_m + half_m};
 }
 
-TextureSampled texture_of(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
+TextureSampled texture_of(const Models& models, std::span<const TraceStage> stages, const TextureSet& set, uint32_t direction,
                           const Light& light, const TextureOptions& options) {
     return TextureSampler(models, stages, set, direction, light, options).run();
 }

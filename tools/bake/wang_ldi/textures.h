@@ -16,7 +16,7 @@ namespace overlook::wang_ldi {
 
 struct TextureOptions {
     uint32_t side_px = 32;            // of the finest picture, a power of two; 0: there are none
-    double unseen_goal = 0.02;        // rays stop when so few hits are in a texel hit once,
+    double unseen_goal = 0.02;        // rays stop when so few hits are in texels that one eye alone hits,
     double error_goal = 0.08;         // and a texel's colour is so certain: standard error over the mean luma
     uint64_t most_rays = 20'000'000;  // or after so many
     uint32_t least_eyes = 16, rays_per_eye = 4096;
@@ -33,7 +33,7 @@ struct TextureSampled {
 };
 // stages: as sampled(). Colours are lit by a sixteenth of the light's rays at each hit, which are many. Same arguments, same
 // texture.
-TextureSampled texture_of(const Models& models, std::span<const Stage> stages, const TextureSet& set, uint32_t direction,
+TextureSampled texture_of(const Models& models, std::span<const TraceStage> stages, const TextureSet& set, uint32_t direction,
                           const Light& light, const TextureOptions& options);
 
 // How a texture's boxes, drawn over each other along sight lines, differ from what these meet; views from all over the far wedge.
@@ -44,7 +44,7 @@ struct TextureJudgement {
     double drawn_coverage = 0;  // likewise, by opacity
     double mean_error = 0;      // of |luma - luma|, sRGB-encoded, before a middle grey
 };
-TextureJudgement judged_texture(const Models& models, const Stage& stage, const TextureSet& set,
+TextureJudgement judged_texture(const Models& models, const TraceStage& stage, const TextureSet& set,
                                 const DirectionalTexture& texture, uint32_t direction, double focal_px, const Light& light,
                                 const Judging& judging);
 

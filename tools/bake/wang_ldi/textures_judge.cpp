@@ -51,7 +51,7 @@ struct Pixel {
 
 class TextureJudge {
   public:
-    TextureJudge(const Models& models, const Stage& stage, const TextureSet& set, const DirectionalTexture& texture,
+    TextureJudge(const Models& models, const TraceStage& stage, const TextureSet& set, const DirectionalTexture& texture,
                  const Light& light)
         : models_(models), stage_(stage), set_(set), texture_(texture), light_(light) {}
     void add_view(const Wedge& wedge, double focal_px, const Judging& judging, uint32_t view);
@@ -61,7 +61,7 @@ class TextureJudge {
     void add_line(const rays::Ray& ray, const rays::Hit& hit, uint64_t seed, Pixel& pixel);
 
     const Models& models_;
-    const Stage& stage_;
+    const TraceStage& stage_;
     const TextureSet& set_;
     const DirectionalTexture& texture_;
     const Light& light_;
@@ -123,7 +123,7 @@ TextureJudgement TextureJudge::result() const {
 
 }  // namespace
 
-TextureJudgement judged_texture(const Models& models, const Stage& stage, const TextureSet& set,
+TextureJudgement judged_texture(const Models& models, const TraceStage& stage, const TextureSet& set,
                                 const DirectionalTexture& texture, uint32_t direction, double focal_px, const Light& light,
                                 const Judging& judging) {
     TextureJudge judge(models, stage, set, texture, light);
