@@ -1,5 +1,8 @@
 // Planted ground, measured: beside its own plants, with counters that repeat.
+#include <fstream>
+
 #include "formats/discrete.h"
+#include "formats/wang_ldi_layout.h"
 #include "tests/formats/scratch_folder.h"
 #include "tests/gl/fixture.h"
 #include "tests/gl/planting_file.h"
@@ -102,6 +105,34 @@ TEST_F(MeasuredPlanting, NeedsItsModels) {
     auto refused = check_draws(std::vector<MethodSpec>{*parse_method("terrain")}, *one);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message, "--method terrain: it draws terrains, and scene.json holds a planting");
+}
+
+TEST_F(MeasuredPlanting, RefusesImagesThatCannotBeReadAndTooLittleMemoryBeforeItBegins) {
+    auto whole = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_TRUE(check_draws(std::vector<MethodSpec>{*parse_method("wang-ldi@memory-mib=64")}, *whole));
+    auto tight = check_draws(std::vector<MethodSpec>{*parse_method("wang-ldi@memory-mib=1")}, *whole);
+    ASSERT_FALSE(tight);
+    EXPECT_EQ(tight.error().exit, Exit::impossible);
+    EXPECT_TRUE(tight.error().message.starts_with("--method wang-ldi: ")) << tight.error().message;
+    EXPECT_NE(tight.error().message.find("mounds.ovl: its coarsest blocks take "), std::string::npos) << tight.error().message;
+    // The last image's last byte: nothing but its own check tells.
+    uint64_t damaged = 0;
+    {
+        auto file = container::Reader::open(folder_ / "mounds.ovl");
+        ASSERT_TRUE(file);
+        const container::Section* section = file->find(wang_ldi::kImagesTag);
+        ASSERT_NE(section, nullptr);
+        damaged = section->offset + section->stored_bytes - 1;
+    }
+    std::fstream bytes(folder_ / "mounds.ovl", std::ios::in | std::ios::out | std::ios::binary);
+    bytes.seekg(std::streamoff(damaged));
+    int byte = bytes.get();
+    bytes.seekp(std::streamoff(damaged)), bytes.put(char(byte ^ 1)), bytes.close();
+    auto broken = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_FALSE(broken);
+    EXPECT_EQ(broken.error().exit, Exit::bad_input);
+    EXPECT_NE(broken.error().message.find("mounds.ovl"), std::string::npos) << broken.error().message;
 }
 
 }  // namespace

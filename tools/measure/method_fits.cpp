@@ -1,6 +1,7 @@
 // Which methods draw which things.
 #include "tools/measure/discrete_method.h"
 #include "tools/measure/methods.h"
+#include "tools/measure/planting_method.h"
 #include "tools/measure/streamed_method.h"
 
 namespace overlook::measure {
@@ -42,6 +43,9 @@ Result<void> check_draws(std::span<const MethodSpec> specs, const World& world) 
         }
         if (is_streamed(spec)) {
             if (Result<void> streams = check_streams(spec, world); !streams) return streams;
+        }
+        if (spec.name == "wang-ldi") {
+            if (Result<void> holds = check_planting(spec, world); !holds) return holds;
         }
         if (spec.name != "discrete" || !world.is_mesh()) continue;
         for (const SettingKind& kind : kind_of(spec)->settings) {

@@ -1,8 +1,8 @@
 #include "tools/measure/planting_method.h"
 
-#include <cassert>
-
 #include "runtime/terrain/refine.h"
+#include "tools/measure/methods.h"
+#include "tools/measure/still.h"
 
 namespace overlook::measure {
 namespace {
@@ -21,22 +21,23 @@ wang_ldi::FrameOptions options_of(const MethodSpec& spec) {
     return options;
 }
 
+wang_ldi::ImageStreaming streaming_of(const MethodSpec& spec) {
+    wang_ldi::ImageStreaming streaming;
+    streaming.settings.residency_budget_bytes = uint64_t(setting(spec, std::string(kMemoryMib.name)) * (1 << 20));
+    streaming.settings.upload_budget_bytes = streaming.settings.residency_budget_bytes;
+    streaming.settings.latency_frames = 1, streaming.waits = true;
+    return streaming;
+}
+
 class Planting : public Method {
   public:
     Planting(World& world, const MethodSpec& spec) : world_(world) {
-        wang_ldi::ImageStreaming streaming;
-        streaming.settings.residency_budget_bytes = uint64_t(setting(spec, std::string(kMemoryMib.name)) * (1 << 20));
-        streaming.settings.upload_budget_bytes = streaming.settings.residency_budget_bytes;
-        streaming.settings.latency_frames = 1, streaming.waits = true;
-        auto frames = wang_ldi::FrameDrawer::make(world.planted->planted(), world.planted->land(), options_of(spec), streaming);
-        assert(frames);
-        frames_ = std::move(*frames);
+        frames_ = still(
+            wang_ldi::FrameDrawer::make(world.planted->planted(), world.planted->land(), options_of(spec), streaming_of(spec)));
     }
 
     void decide(const view::Camera& camera, uint32_t frame) override {
-        Result<void> decided = frames_->decide(camera, double(frame - last_frame_) * world_.step_s, terrain::kDefaultMorph);
-        assert(decided);
-        static_cast<void>(decided);
+        still(frames_->decide(camera, double(frame - last_frame_) * world_.step_s, terrain::kDefaultMorph));
         last_frame_ = frame;
     }
 
@@ -72,6 +73,13 @@ std::vector<SettingKind> planting_settings(wang_ldi::Variant variant) {
     all.push_back(kMemoryMib);
     all.push_back(kSamples);
     return all;
+}
+
+Result<void> check_planting(const MethodSpec& spec, const World& world) {
+    const wang_ldi::PlantedField& planted = world.planted->planted();
+    auto store = wang_ldi::ImageStore::open(planted.name(), planted.images(), streaming_of(spec).settings);
+    if (!store) return tl::unexpected(Error{store.error().exit, "--method " + named(spec) + ": " + store.error().message});
+    return {};
 }
 
 std::unique_ptr<Method> make_planting_method(World& world, const MethodSpec& spec) {

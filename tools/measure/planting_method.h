@@ -14,6 +14,9 @@ namespace overlook::measure {
 // What a variant has, and "memory-mib" of images and "samples".
 std::vector<SettingKind> planting_settings(wang_ldi::Variant variant);
 
+// Whether its memory has room for what it keeps of the images. Fails as ImageStore::open.
+Result<void> check_planting(const MethodSpec& spec, const World& world);
+
 // Every frame waits for the images that its memory has room for. The world must hold planted ground, be uploaded and outlive it.
 std::unique_ptr<Method> make_planting_method(World& world, const MethodSpec& spec);
 

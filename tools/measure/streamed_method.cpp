@@ -1,6 +1,5 @@
 #include "tools/measure/streamed_method.h"
 
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "runtime/terrain/refine_tiles.h"
 #include "tools/measure/honesty/terrain_honesty.h"
 #include "tools/measure/mesh_method.h"
+#include "tools/measure/still.h"
 #include "tools/measure/terrain_method.h"
 
 namespace overlook::measure {
@@ -35,16 +35,6 @@ Result<std::unique_ptr<terrain::Tiles>> open_terrain(const MethodSpec& spec, con
     return terrain::Tiles::open(std::move(*file), streaming_of(spec));
 }
 
-// What was found to be there before the run.
-template <class Value>
-Value still(Result<Value> result) {
-    if (!result) throw std::runtime_error(result.error().message + " (it was readable when the run began)");
-    return std::move(*result);
-}
-void still(const std::vector<Error>& faults) {
-    if (!faults.empty()) throw std::runtime_error(faults.front().message + " (it was readable when the run began)");
-}
-
 class StreamedMesh : public Method {
   public:
     StreamedMesh(World& world, const MethodSpec& spec)
@@ -56,7 +46,7 @@ class StreamedMesh : public Method {
     void decide(const view::Camera& camera, uint32_t frame) override {
         camera_ = camera;
         std::span<const Error> faults = stream_->begin_frame();
-        still(std::vector<Error>(faults.begin(), faults.end()));
+        still(faults);
         taken_bytes_ = still(drawing_.take_vertices(stream_->mesh(0)));
         frames_.decide(camera, double(frame - last_frame_) * world_.step_s);
         frames_.take_note(*stream_, 0);

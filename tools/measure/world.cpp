@@ -120,6 +120,10 @@ Result<double> read_planted(const scene::Scene& scene, const std::string& path, 
     auto land = wang_ldi::PlantedLand::read(std::move(*planting), std::move(ground), described, path);
     if (!land) return tl::unexpected(land.error());
     if (Result<void> models = (*land)->read_models(); !models) return tl::unexpected(models.error());
+    // A run is not to end in the middle for an image that nothing can be read from.
+    const wang_ldi::ImageReader& images = (*land)->planted().images();
+    for (uint64_t i = 0; i < images.set().ldi_count(); ++i)
+        if (auto image = images.read(i); !image) return tl::unexpected(image.error());
     world.planted = std::move(*land);
     return wang_ldi::kPlantedNear_m * world.transform.scale;
 }
