@@ -38,6 +38,7 @@ class PlantedLand {
     const terrain::Terrain& terrain() const { return *terrain_; }
     bool is_plain() const { return is_plain_; }
     Land land() { return {terrain_.get(), &*refiner_, &*drawing_, is_plain_, plants()}; }
+    const std::vector<discrete::Chain>& models() const { return models_; }  // those that were read
     Plants* plants() { return plants_ ? &*plants_ : nullptr; }  // null unless models were read
 
     // An eye in the middle of the ground, as high as images were sampled for.

@@ -19,12 +19,14 @@ std::vector<uint8_t> planted_px(const gl::Target& target, const ImageRgb8& pictu
     return mask;
 }
 
-// Not 0 where what the target shows stands in the cell.
+// Not 0 where what the target shows stands in the cell; nowhere for an eye that is outside of it.
 std::vector<uint8_t> in_cell_px(const World& world, const view::Camera& camera, const gl::Target& target) {
     const wang_ldi::PlantedField& planted = world.planted->planted();
     const wang_ldi::Cell& cell = planted.images().set().cell;
     std::vector<float> depths = target.read_depth();
     std::vector<uint8_t> mask(depths.size());
+    double above_m = camera.position_m.z - planted.ground().height_m(glm::dvec2(camera.position_m));
+    if (!(above_m >= cell.eye_low_m && above_m <= cell.eye_high_m)) return mask;
     view::Axes axes = view::axes_of(camera);
     double focal_px = view::focal_px(camera), half_tile_m = planted.placement().tile_m() * std::sqrt(0.5);
     for (size_t p = 0; p < mask.size(); ++p) {
@@ -47,30 +49,30 @@ void paint_magenta(World& world) {
     world.look.haze = 0;
 }
 
-Result<Magenta> gaps_over_magenta(World& magenta, const MethodSpec& spec, std::span<const view::Camera> cameras) {
+Result<std::vector<Magenta>> gaps_over_magenta(World& magenta, std::span<const MethodSpec> specs,
+                                               std::span<const view::Camera> cameras) {
     Result<gl::Target> target = gl::Target::make(cameras.front().width_px, cameras.front().height_px, 1);
     if (!target) return tl::unexpected(target.error());
-    std::unique_ptr<Method> method = make_method(spec, magenta);
+    std::vector<std::unique_ptr<Method>> methods;
+    for (const MethodSpec& spec : specs) methods.push_back(make_method(spec, magenta));
     FullGeometry full(magenta);
-    const wang_ldi::PlantedField& planted = magenta.planted->planted();
-    const wang_ldi::Cell& cell = planted.images().set().cell;
-    Magenta found;
-    uint64_t most = 0;
+    std::vector<Magenta> found(specs.size());
+    std::vector<uint64_t> most(specs.size());
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         const view::Camera& camera = cameras[frame];
         full.draw(*target, camera);
         ImageRgb8 truth = target->read();
         std::vector<uint8_t> covered = planted_px(*target, truth), asked = in_cell_px(magenta, camera, *target);
-        double above_m = camera.position_m.z - planted.ground().height_m(glm::dvec2(camera.position_m));
-        if (!(above_m >= cell.eye_low_m && above_m <= cell.eye_high_m)) std::fill(asked.begin(), asked.end(), uint8_t(0));
-        method->decide(camera, frame);
-        method->draw(*target);
-        ImageRgb8 picture = target->read();
-        std::vector<uint8_t> shown = planted_px(*target, picture);
-        Gaps in_cell = gaps_of(covered, shown, camera.width_px, asked);
-        found.anywhere.add(gaps_of(covered, shown, camera.width_px)), found.in_cell.add(in_cell);
-        if (frame > 0 && in_cell.gap_px <= most) continue;
-        most = in_cell.gap_px, found.worst = std::move(picture), found.truth = std::move(truth);
+        for (size_t i = 0; i < specs.size(); ++i) {
+            methods[i]->decide(camera, frame);
+            methods[i]->draw(*target);
+            ImageRgb8 picture = target->read();
+            std::vector<uint8_t> shown = planted_px(*target, picture);
+            Gaps in_cell = gaps_of(covered, shown, camera.width_px, asked);
+            found[i].anywhere.add(gaps_of(covered, shown, camera.width_px)), found[i].in_cell.add(in_cell);
+            if (frame > 0 && in_cell.gap_px <= most[i]) continue;
+            most[i] = in_cell.gap_px, found[i].worst = std::move(picture), found[i].truth = truth;
+        }
     }
     return found;
 }

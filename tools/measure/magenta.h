@@ -17,9 +17,10 @@ struct Magenta {
 // Paints the ground of a scene's planting magenta and takes the air away; before it is uploaded. Nothing else of it changes.
 void paint_magenta(World& world);
 
-// Draws a method's pictures of such a world, and its plants by geometry from the same places, one sample a pixel. A gap is a
-// pixel where the method shows the ground or the sky and the plants, there and all round, do not. Fails with Exit::impossible
-// (targets).
-Result<Magenta> gaps_over_magenta(World& magenta, const MethodSpec& spec, std::span<const view::Camera> cameras);
+// Draws pictures of such a world by each method, and its plants by geometry from the same places, one sample a pixel. A gap is a
+// pixel where the method shows the ground or the sky and the plants, there and all round, do not. One for each spec. Fails with
+// Exit::impossible (targets).
+Result<std::vector<Magenta>> gaps_over_magenta(World& magenta, std::span<const MethodSpec> specs,
+                                               std::span<const view::Camera> cameras);
 
 }  // namespace overlook::measure

@@ -60,6 +60,11 @@ Result<void> add_frame(const wang_ldi::PlantedField& planted, const MethodSpec& 
     field->list(camera, list);
     all.too_steep = std::max(all.too_steep, list.counts.tiles_by_verdict[size_t(wang_ldi::Verdict::too_steep)]);
     for (const wang_ldi::Item& item : list.items) {
+        auto is_image = [&](const wang_ldi::Shown& shown) {
+            return field->ladder().rungs[shown.rung].stage == wang_ldi::Stage::ldi;
+        };
+        std::span<const wang_ldi::Shown> shown = list.shown_of(item);
+        if (std::none_of(shown.begin(), shown.end(), is_image)) continue;  // geometry stands on the ground itself
         all.tiles += item.half_count > 0;
         for (const wang_ldi::Half& half : list.halves_of(item)) add_half(planted.placement(), item, half, camera, frame, all);
     }

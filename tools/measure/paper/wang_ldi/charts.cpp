@@ -43,6 +43,8 @@ Chart breaking(const std::string& plants) {
 std::vector<Chart> charts_of(const Flown& flown) {
     std::vector<Chart> charts;
     for (const Plants& plants : flown.plants) charts.push_back(density(plants.name)), charts.push_back(breaking(plants.name));
+    for (const Plants& plants : flown.plants)
+        for (Chart& chart : charts_of_fields(plants)) charts.push_back(std::move(chart));
     return charts;
 }
 

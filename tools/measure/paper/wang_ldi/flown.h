@@ -6,6 +6,8 @@
 
 #include "tools/measure/charts.h"
 #include "tools/measure/paper/leave.h"
+#include "tools/measure/paper/wang_ldi/flown_fields.h"
+#include "tools/measure/paper/wang_ldi/one_direction.h"
 #include "tools/measure/paper/wang_ldi/one_ldi.h"
 #include "tools/measure/paper/wang_ldi/report.h"
 #include "tools/measure/paper/wang_ldi/wood.h"
@@ -31,7 +33,9 @@ struct Plants {
     uint64_t one_samples = 0;                // of the one LDI
     uint32_t one_layers = 0;
     std::vector<Moved> moved;
-    std::vector<Picture> pictures;  // in the order of their figures
+    std::vector<FlownLand> lands;            // section 6; none: the folder has no scenes
+    std::optional<OneDirection> directions;  // none: the folder has no bakes of one and of eight
+    std::vector<Picture> pictures;           // in the order of their figures
 };
 
 struct Flown {
@@ -43,6 +47,11 @@ std::string sets_csv(const Flown& flown);
 std::string levels_csv(const Flown& flown);
 std::string planting_csv(const Flown& flown);
 std::string one_ldi_csv(const Flown& flown);
+// fields.csv: a row a run of section 6.
+std::string fields_csv(const Flown& flown);
+
+// Of section 6: times, errors and radii.
+std::vector<Chart> charts_of_fields(const Plants& plants);
 
 // By gnuplot from the tables: of each, how densely corners and edges are planted, and how one LDI breaks.
 std::vector<Chart> charts_of(const Flown& flown);

@@ -2,6 +2,7 @@
 
 #include "tools/measure/page_text.h"
 #include "tools/measure/paper/page_parts.h"
+#include "tools/measure/paper/wang_ldi/page_fields.h"
 #include "tools/measure/paper/wang_ldi/targets.h"
 #include "tools/measure/paper/work.h"
 
@@ -24,12 +25,19 @@ std::vector<Row> rows_of(const Plants& plants) {
 }
 
 std::string setup_html(const WangPage& page) {
-    return "<p>Plants baked into tiles <em>as published</em> (eight tiles, planted round-robin, seven levels, eight directions, "
-           "2.5 "
-           "million rays an image) and as <em>Overlook</em> bakes them by itself, drawn by the exact warper: tiles back to "
-           "front, "
-           "samples in an order in which none hides one after it, each a square of pixels, nothing filled. What a plant leaves "
-           "free is earth and sky.</p>\n<p class=\"note\">" +
+    return std::string(
+               "<p>Plants baked into tiles <em>as published</em> (eight tiles, planted round-robin, seven levels, eight "
+               "directions, "
+               "2.5 "
+               "million rays an image) and as <em>Overlook</em> bakes them by itself, drawn by the exact warper: tiles back to "
+               "front, "
+               "samples in an order in which none hides one after it, each a square of pixels, nothing filled. What a plant "
+               "leaves "
+               "free is earth and sky. Section 6 is flown by the methods themselves, in OpenGL.</p>\n<p class=\"note\">") +
+           (page.is_coarse
+                ? "Baked coarsely, for a quick page: fewer pixels and rays, and <em>as published</em> with the paper's tiles "
+                  "and planting but not its constants. "
+                : "") +
            machine_html(page.setup) + ". " + command_html(page.setup.command) + "</p>\n";
 }
 
@@ -126,7 +134,7 @@ std::string plants_html(const WangPage& page, const Plants& plants) {
            "</h2>\n" + planting_html(plants) +
            charts_html(page, "density-" + plants.name, "1: as densely as anywhere. Steps are few objects wide.") +
            figures_html(plants, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" + levels_html(plants) +
-           figures_html(plants, 7, 12);
+           directions_html(plants) + figures_html(plants, 7, 12);
 }
 
 }  // namespace
@@ -135,7 +143,7 @@ std::string wang_page_html(const WangPage& page) {
     std::string body = setup_html(page) +
                        targets_html(targets_of(page.flown), target_columns(),
                                     "Red: missed; the reason is from this run's numbers. Minutes are of the machine that baked.");
-    for (const Plants& plants : page.flown.plants) body += plants_html(page, plants);
+    for (const Plants& plants : page.flown.plants) body += plants_html(page, plants) + fields_html(page, plants);
     if (!page.has_charts) body += "<p class=\"note\">gnuplot was not installed; the charts' scripts lie in charts/.</p>\n";
     return paper_page("Tiling layered depth images: the paper, run anew", body);
 }

@@ -14,6 +14,7 @@ struct WangPage {
     const RunSetup& setup;
     const std::vector<Chart>& charts;
     bool has_charts = true;
+    bool is_coarse = false;  // baked so
 };
 // One file without scripts or anything from elsewhere; links are relative to its folder.
 std::string wang_page_html(const WangPage& page);

@@ -192,6 +192,11 @@ Result<Plants> plants_of(const Subject& subject, const std::function<void(double
     plants.paper_size = size_of(subject.paper), plants.own_size = size_of(subject.own);
     if (auto added = add_figure_2(subject, plants); !added) return tl::unexpected(added.error());
     done(0.6);
+    if (subject.one && subject.eight) {
+        auto directions = compare_directions(*subject.one, *subject.eight, kSeed);
+        if (!directions) return tl::unexpected(directions.error());
+        plants.directions = *directions;
+    }
     add_sheets(subject, plants);
     if (auto added = add_rings(subject, plants); !added) return tl::unexpected(added.error());
     if (auto added = add_portraits(subject, plants); !added) return tl::unexpected(added.error());

@@ -74,6 +74,9 @@ Result<Subject> read_subject(const std::string& folder) {
     if (done) done = read_report_of(at("robinson.json"), nullptr, subject.of_robinson);
     if (done) done = read_sheet(at("sheet"), subject.sheet);
     if (done) done = read_sheet(at("sheet-own"), subject.own_sheet);
+    bool has_directions = std::filesystem::exists(at("one.ovl")) && std::filesystem::exists(at("eight.ovl"));
+    if (has_directions && done) done = open(at("one.ovl"), subject.one.emplace());
+    if (has_directions && done) done = open(at("eight.ovl"), subject.eight.emplace());
     if (!done) return tl::unexpected(done.error());
     return subject;
 }

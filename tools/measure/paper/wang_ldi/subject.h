@@ -30,6 +30,7 @@ struct Subject {
     // With the paper's tiles, planting and constants; as Overlook bakes by itself; a single tile that repeats; the paper's tiles
     // without light.
     Bake paper, own, single, unlit;
+    std::optional<Bake> one, eight;  // without light, of one direction and of eight, the same levels; both or neither
     BakeReport of_paper, of_own, of_single, of_robinson;
     std::vector<std::pair<std::string, ImageRgb8>> sheet, own_sheet;  // sheet_names(), of paper and own
 };

@@ -105,6 +105,45 @@ void add_of_images(const Plants& plants, std::vector<Target>& targets) {
                                           paper ? short_number(*paper) : "-", own ? short_number(*own) : "-");
 }
 
+const FieldRow* row_of(const FlownLand& land, const char* set, const char* family, const char* what, double x) {
+    for (const FieldRow& row : land.rows)
+        if (row.set == set && row.family == family && row.what == what && row.x == x) return &row;
+    return nullptr;
+}
+
+// Section 6: the paper's way and Overlook's.
+void add_of_fields(const Plants& plants, std::vector<Target>& targets) {
+    bool is_grass = plants.name == "grass";
+    for (const FlownLand& land : plants.lands) {
+        auto add = [&](const std::string& name, const char* printed, double goal, bool is_at_least, const Value& paper,
+                       const Value& own) {
+            targets.push_back(target(plants, land.name + ": " + name, printed, goal, is_at_least));
+            targets.back().measured = {paper, own};
+        };
+        const FieldRow *paper = row_of(land, "flight", "the paper's", "walk", 0),
+                       *own = row_of(land, "flight", "Overlook", "walk", 0);
+        if (paper && own)
+            add("frames a second, walking, with terrain", is_grass ? "1 to 2" : "1.5 to 3", is_grass ? 20 : 30, true,
+                1000 / std::max(1e-3, paper->ms_p50), 1000 / std::max(1e-3, own->ms_p50));
+        const FieldRow *images = row_of(land, "error", "Overlook", "", 1), *geometry = row_of(land, "error", "geometry", "", 1);
+        if (images && geometry)
+            add("times as fast as the geometry at 1 px", "-", 1, true, std::nullopt,
+                geometry->ms_p50 / std::max(1e-3, images->ms_p50));
+        const FieldRow *printed_way = row_of(land, "remedy", "the paper's", "", 1),
+                       *remedied = row_of(land, "remedy", "Overlook", "", 1);
+        if (printed_way && remedied && printed_way->in_cell && remedied->in_cell) {
+            add("holes in the cell after filling, %", "\"some\"", 0.1, false, 100 * printed_way->in_cell->share(),
+                100 * remedied->in_cell->share());
+            add("widest hole over magenta, px", "-", 2, false, double(printed_way->in_cell->widest_px),
+                double(remedied->in_cell->widest_px));
+        }
+        const FieldRow *wide = row_of(land, "radius", "Overlook", "", 1000), *near = row_of(land, "radius", "Overlook", "", 40);
+        if (wide && near)
+            add("cost of a radius of 1,000 tiles beside 40", "-", 2, false, std::nullopt,
+                wide->ms_p50 / std::max(1e-3, near->ms_p50));
+    }
+}
+
 // From the run's own numbers.
 void say_why(const Plants& plants, Target& target) {
     if (target.measured.back().value_or(target.goal) <= target.goal || target.is_at_least) return;
@@ -127,7 +166,7 @@ std::vector<Target> targets_of(const Flown& flown) {
     std::vector<Target> targets;
     for (const Plants& plants : flown.plants) {
         size_t first = targets.size();
-        add_of_planting(plants, targets), add_of_images(plants, targets);
+        add_of_planting(plants, targets), add_of_images(plants, targets), add_of_fields(plants, targets);
         for (size_t i = first; i < targets.size(); ++i) say_why(plants, targets[i]);
     }
     return targets;

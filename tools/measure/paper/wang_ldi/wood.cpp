@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <numbers>
 
 #include "runtime/gl/timer.h"
+#include "tools/measure/paper/wang_ldi/one_direction.h"
 
 namespace overlook::measure::paper::wang {
 namespace {
@@ -66,6 +68,7 @@ Result<WoodCounts> Wood::draw(const view::Camera& camera, wang_ldi::Warped& pict
     double tile_m = set().tile_m, radius_m = std::hypot(tile_m * 0.75, (set().high_m - set().low_m) / 2 + tile_m / 4);
     std::array<glm::dvec3, 4> sides = view::sides_of(camera);
     std::vector<wang_ldi::Drawn> drawn;
+    std::deque<wang_ldi::Ldi> facing_eye;
     WoodCounts counts;
     for (uint32_t row = 0; row < tiling_.rows; ++row)
         for (uint32_t column = 0; column < tiling_.columns; ++column) {
@@ -83,7 +86,11 @@ Result<WoodCounts> Wood::draw(const view::Camera& camera, wang_ldi::Warped& pict
                 at = images_.emplace(index, std::move(*ldi)).first;
             }
             counts.samples += at->second.sample_count();
-            drawn.push_back({&at->second, level, {column * tile_m, row * tile_m, 0}, glm::dvec2(0), 1});
+            const wang_ldi::Ldi* ldi = &at->second;
+            if (skips_)
+                ldi = &facing_eye.emplace_back(facing(set(), level, *ldi, camera.position_m, glm::dvec2(column, row) * tile_m));
+            counts.kept += ldi->sample_count();
+            drawn.push_back({ldi, level, {column * tile_m, row * tile_m, 0}, glm::dvec2(0), 1});
         }
     order_of_tiles(camera.position_m, tile_m, drawn);
     gl::Timer timer;

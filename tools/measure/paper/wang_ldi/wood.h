@@ -13,6 +13,7 @@ constexpr double kRadius_tiles = 40;  // nothing is drawn beyond, as in the pape
 
 // What was drawn for a picture.
 struct WoodCounts {
+    uint64_t kept = 0;                            // of the samples, those that are warped
     uint64_t tiles = 0, samples = 0, pixels = 0;  // of the picture, that show a plant
     double warp_ms = 0;                           // one thread; images at hand
 };
@@ -24,6 +25,9 @@ class Wood {
 
     // In the middle of the ground, an eye of the cell's mean height; pixels as asked.
     view::Camera camera(uint32_t width_px, uint32_t height_px) const;
+
+    // From the next picture on: of images with normals, samples that face away from the eye are left out.
+    void skip_what_faces_away(bool skips) { skips_ = skips; }
 
     // Tiles within kRadius_tiles and in sight, back to front, each at its level and direction. Images that are read stay in
     // memory. Fails as ImageReader::read.
@@ -39,6 +43,7 @@ class Wood {
     glm::dvec2 middle_m(uint32_t column, uint32_t row) const { return (glm::dvec2(column, row) + 0.5) * set().tile_m; }
 
     const Bake* bake_;
+    bool skips_ = false;
     wang_ldi::Tiling tiling_;
     std::map<uint64_t, wang_ldi::Ldi> images_;
 };
