@@ -7,6 +7,7 @@
 #include "tests/gl/fixture.h"
 #include "tests/gl/planting_file.h"
 #include "tests/runtime/discrete/chains.h"
+#include "tools/measure/magenta.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/run.h"
 
@@ -90,6 +91,24 @@ TEST_F(MeasuredPlanting, DrawsNearTilesAsGeometryWhereItIsAsked) {
     Counters images = triangles_of("wang-ldi@samples=1"), near = triangles_of("wang-ldi@samples=1@geometry-m=6");
     EXPECT_GT(near.triangle_count, images.triangle_count + 100);
     EXPECT_LT(near.sample_count, images.sample_count);
+}
+
+TEST_F(MeasuredPlanting, ShowsMagentaWhereItHasHolesAndNoneWhereItIsThePlants) {
+    auto world = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_TRUE(world) << world.error().message;
+    paint_magenta(*world);
+    ASSERT_TRUE(upload(*world));
+    std::vector<MethodSpec> specs;
+    for (const char* method : {"wang-ldi@samples=1@geometry-m=1000@radius-m=500", "wang-ldi@samples=1@radius-m=0.5"})
+        specs.push_back(*parse_method(method));
+    auto found = gaps_over_magenta(*world, specs, walk(*world, 2));
+    ASSERT_TRUE(found) << found.error().message;
+    const Gaps &plants = (*found)[0].anywhere, &nothing = (*found)[1].anywhere;
+    EXPECT_GT(plants.covered_px, 100u);
+    EXPECT_EQ(plants.covered_px, nothing.covered_px);
+    EXPECT_LE(plants.share(), 0.01) << "the same plants at another level";
+    EXPECT_GT(nothing.share(), 0.9) << "nothing is drawn, so all of them are holes";
+    EXPECT_GT(nothing.widest_px, 2u);
 }
 
 TEST_F(MeasuredPlanting, NeedsItsModels) {
