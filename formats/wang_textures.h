@@ -50,6 +50,7 @@ struct TextureSet {
     double eye_low_m = 0, eye_high_m = 0;  // above the tile's ground
     uint32_t tile_count = 0, direction_count = 0, context_count = 1;
     bool has_normals = false;                  // colours are unlit
+    float direction_fade = 0;                  // as of the images, which state it
     std::vector<DirectionalTexture> textures;  // [context_count, tile_count, direction_count]
 
     uint64_t texture_count() const { return uint64_t(context_count) * tile_count * direction_count; }

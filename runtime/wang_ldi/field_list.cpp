@@ -165,11 +165,9 @@ class FieldWalk {
         if (directions.second != directions.first) add_shown(item, {index, directions.second, by_rung, second_of(directions)});
         if (rung.stage != Stage::ldi) return false;
         item.coarser_px = images_.levels[rung.level].side_px;
-        const Cell& cell = images_.cell;
-        double ground_m = glm::length(eye_from_middle);
         bool was_outside = item.is_outside_cell;
-        item.is_outside_cell = eye_above_m < cell.eye_low_m || eye_above_m > cell.eye_high_m || ground_m < cell.nearest_m ||
-                               ground_m > cell.farthest_m;
+        for (uint32_t direction : {directions.first, directions.second})
+            item.is_outside_cell |= !is_sampled_for(images_, rung.level, direction, eye_from_middle, eye_above_m);
         list_.counts.outside_cell += item.is_outside_cell && !was_outside;
         return true;
     }

@@ -52,7 +52,7 @@ Words words_of(const ScratchFolder& folder, const std::string& output, const Wor
                 "--sun-rays",
                 "2",
                 "--direction-px",
-                "30",
+                "52",
                 "--farthest-m",
                 "30",
                 "--textures",

@@ -24,7 +24,8 @@ void add_cell_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--fov-y-deg", args.fov_y_deg, "Its field of view from top to bottom")
         ->check(command::number_in(1, 170))
         ->capture_default_str();
-    app.add_option("--error-px", args.error_px, "How wide a sample may be in it where its level begins")
+    app.add_option("--error-px", args.error_px,
+                   "How wide a sample may be in the middle of it, from where its level begins to be shown")
         ->check(command::number_in(0.01, 1000))
         ->capture_default_str();
     app.add_option("--eye-low-m", args.eye_low_m, "Eyes are so high above the ground at least")
@@ -41,8 +42,18 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
         ->check(command::number_in(1.05, 4))
         ->capture_default_str();
     app.add_option("--direction-px", args.direction_px,
-                   "By so many pixels a tile's rim may turn within the images of one direction")
+                   "By so many pixels, in the middle of the picture, a tile's rim may turn between the middle of a direction and "
+                   "where its images end")
         ->check(command::number_in(0.1, 1e5))
+        ->capture_default_str();
+    app.add_option("--level-fade", args.level_fade,
+                   "Levels are sampled for so much beyond their own distances, for players that fade one into the next there: a "
+                   "share of the distance (0 to 0.5; the player's --fade)")
+        ->check(command::number_in(0, 0.5))
+        ->capture_default_str();
+    app.add_option("--direction-fade", args.direction_fade,
+                   "Likewise directions, a share of the angle between two (the player's --direction-fade)")
+        ->check(command::number_in(0, 0.5))
         ->capture_default_str();
     app.add_option("--unseen", args.unseen, "Rays stop when so much of what the eyes see is not yet met, as is estimated")
         ->check(command::number_in(1e-4, 0.9))
@@ -156,6 +167,7 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     double focal_px = args.height_px / (2 * std::tan(args.fov_y_deg * M_PI / 360));
     bake.levels.set.cell = {args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m, focal_px, args.error_px};
     bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
+    bake.levels.set.level_fade = float(args.level_fade), bake.levels.set.direction_fade = float(args.direction_fade);
     bake.sampling.unseen_goal = args.unseen;
     bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views;
     bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
@@ -187,6 +199,7 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     add("view", fmt::format("{} px, {} deg, {} px allowed", args.height_px, args.fov_y_deg, args.error_px));
     add("eyes", fmt::format("{} to {} m up, {} to {} m away", args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m));
     add("level-ratio", fmt::format("{}", args.level_ratio)), add("direction-px", fmt::format("{}", args.direction_px));
+    if (args.constants != "paper") add("fades", fmt::format("levels {}, directions {}", args.level_fade, args.direction_fade));
     add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
     add("textures", args.textures);
     if (args.light == "baked")

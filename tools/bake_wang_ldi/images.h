@@ -13,7 +13,8 @@ struct ImageArgs {
     std::string constants = "chosen";
     double height_px = 720, fov_y_deg = 60, error_px = 1;  // of the picture that is thought of
     double eye_low_m = 1.5, eye_high_m = 1.9, nearest_m = 0, farthest_m = 0;
-    double level_ratio = 1.5, direction_px = 96, unseen = 0.02;
+    double level_ratio = 1.5, direction_px = 170, unseen = 0.02;
+    double level_fade = 0.05, direction_fade = 0.1;
     uint32_t neighbourhoods = 1, judged_views = 0;
     std::string textures = "32";  // texels a side, or "none"
     std::string leaves = "trimmed";

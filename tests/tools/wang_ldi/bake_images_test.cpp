@@ -16,7 +16,7 @@ namespace {
 ImageBake small_bake() {
     ImageBake bake;
     bake.levels.set.cell = {1.5, 1.9, 6, 30, 120, 1};
-    bake.levels.direction_px = 60, bake.levels.level_ratio = 2;
+    bake.levels.direction_px = 130, bake.levels.level_ratio = 2;
     bake.sampling.rays_per_eye = 4096, bake.sampling.unseen_goal = 0.05;
     bake.light.sky_rays = 16, bake.light.sun_rays = 4;
     bake.textures.side_px = 4, bake.textures.error_goal = 0.1, bake.textures.rays_per_eye = 1024;

@@ -207,7 +207,8 @@ TextureSampled TextureSampler::run() {
 TextureSet texture_set_of(const ImageSet& images, uint32_t side_px) {
     TextureSet set;
     set.side_px = side_px, set.tile_m = images.tile_m, set.low_m = images.low_m, set.high_m = images.high_m;
-    set.nearest_m = images.cell.farthest_m, set.farthest_m = kFarTimes * images.cell.farthest_m;
+    set.nearest_m = images.cell.farthest_m * (1 - double(images.level_fade)), set.farthest_m = kFarTimes * images.cell.farthest_m;
+    set.direction_fade = images.direction_fade;
     set.eye_low_m = images.cell.eye_low_m, set.eye_high_m = images.cell.eye_high_m;
     set.tile_count = images.tile_count, set.direction_count = images.direction_count;
     set.context_count = images.context_count, set.has_normals = images.has_normals;
@@ -219,7 +220,8 @@ Wedge far_wedge_of(const TextureSet& set, uint32_t direction) {
     wedge.tile_m = set.tile_m, wedge.low_m = set.low_m, wedge.high_m = set.high_m, wedge.side_px = set.side_px;
     wedge.nearest_m = set.nearest_m, wedge.farthest_m = set.farthest_m;
     wedge.eye_low_m = set.eye_low_m, wedge.eye_high_m = set.eye_high_m;
-    wedge.heading_rad = 2 * M_PI * direction / set.direction_count, wedge.half_width_rad = M_PI / set.direction_count;
+    double step_rad = 2 * M_PI / set.direction_count;
+    wedge.heading_rad = direction * step_rad, wedge.half_width_rad = (0.5 + double(set.direction_fade)) * step_rad;
     return wedge;
 }
 

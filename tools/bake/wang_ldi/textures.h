@@ -23,7 +23,7 @@ struct TextureOptions {
     uint64_t seed = 1;
 };
 
-// A set of textures without any, for these images: eyes from where images end to kFarTimes as far.
+// A set of textures without any, for these images: eyes from where images begin to give way to kFarTimes as far as they reach.
 constexpr double kFarTimes = 4;
 TextureSet texture_set_of(const ImageSet& images, uint32_t side_px);
 
