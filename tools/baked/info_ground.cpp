@@ -68,7 +68,8 @@ void print_ground(const wang_ldi::PlantedTiles& ground) {
     fmt::print("planting: {:.1f} objects a tile ({:.1f} of corners, {:.1f} of edges, {:.1f} inside), of {} models\n",
                double(counts.objects) / tiles, double(counts.owned[0]) / tiles, double(counts.owned[1] + counts.owned[2]) / tiles,
                double(counts.owned[3]) / tiles, ground.planting.models.size());
-    fmt::print("promise: {} tight radii overlap in any of {} neighbourhoods\n", overlaps.tight_overlaps, overlaps.neighbourhoods);
+    fmt::print("promise: {}{} tight radii overlap in any of {} neighbourhoods\n", overlaps.tight_overlaps,
+               overlaps.is_cut_short ? " or more" : "", overlaps.neighbourhoods);
 }
 
 Result<void> write_sheet(const std::string& file, const wang_ldi::PlantedTiles& ground, const wang_ldi::ImageReader* images,

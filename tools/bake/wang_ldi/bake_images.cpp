@@ -122,10 +122,14 @@ class SetBake {
 Result<std::vector<TraceStage>> SetBake::stages_of(uint32_t context, uint32_t tile) const {
     std::vector<TraceStage> stages;
     size_t count = sampled_stages(context) + (context == 0 && bake_.judged_views > 0 ? 1 : 0);
+    std::vector<std::array<int, 9>> sampled_among;
     for (size_t n = 0; n < count; ++n) {
-        auto around =
-            context == 1 ? alone(tile) : neighbourhood(tiles_, tile, hash_of(bake_.seed, kNeighbourStream, tile, int64_t(n)));
-        auto stage = stage_of(models_, copies_of(tiles_, planting_, around), bake_.memory_bytes / count);
+        uint64_t seed = hash_of(bake_.seed, kNeighbourStream, tile, int64_t(n));
+        std::span<const std::array<int, 9>> unlike(sampled_among);
+        auto around = context == 1 ? alone(tile)
+                                   : neighbourhood(tiles_, tile, seed, n < sampled_stages(context) ? unlike.first(0) : unlike);
+        sampled_among.push_back(around);
+        auto stage = stage_of(models_, copies_of(tiles_, planting_, around), bake_.memory_bytes / count, bake_.instructions);
         if (!stage) return tl::unexpected(stage.error());
         stages.push_back(std::move(*stage));
     }

@@ -25,11 +25,13 @@ struct ImageBake {
     bool is_relit = false;                      // colours unlit, with normals
     uint32_t judged_views = 0;                  // of each image; 0: none is judged
     uint64_t memory_bytes = uint64_t(4) << 30;  // for rays: beyond it, a tile and its neighbours are kept as instances
+    rays::Instructions instructions = rays::Instructions::best;  // other processors' best hit otherwise in the last bits
     uint64_t seed = 1;
+    std::string version;       // of the program: parts of another are not taken
     std::string parts_folder;  // of Shards; empty: nothing is kept
     // Only images and textures, counted one after the other, whose number leaves `part` when divided by part_count; others are
     // not made, and no sections are written. For
-    // several machines, which share the folder or bring its files together.
+    // several machines, which share the folder or bring its files together; their instructions are alike, or `everywhere`.
     uint64_t part = 0, part_count = 1;
 };
 // What the paper's constants change: levels and directions, 2.5 million rays an image, one neighbourhood.
@@ -41,7 +43,7 @@ struct ImageRow {
     uint64_t stored_bytes = 0, rays = 0, hits = 0, eyes = 0;
     double unseen_share = 0;
     Judgement judgement;  // among the neighbours that the tile was sampled among
-    Judgement foreign;    // among others
+    Judgement foreign;    // among others, where others fit
 };
 struct TextureRow {
     uint64_t rays = 0, hits = 0, eyes = 0;
@@ -66,7 +68,8 @@ struct ImageReport {
 glm::dvec2 heights_of(const Models& models, const Planting& planting);
 
 // Adds the sections WLDS and WLDI, and WLDT if there are textures (unless it is a part). planting.models are models.meshes, one
-// by one. A pure function of all but parts_folder, whatever the number of threads. `progress` is called with the share done,
+// by one. A pure function of all but parts_folder, whatever the number of threads (and, of Instructions::best, of the processor's
+// instruction set). `progress` is called with the share done,
 // 0..1, from this thread. Fails as leveled() and stage_of() do, with Exit::impossible if memory does not suffice, and as the
 // writer does.
 Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles, const Planting& planting, const Models& models,
