@@ -42,6 +42,7 @@ constexpr Member kPlantingMembers[] = {
     {"density", Kind::text},
     {"fairing_tiles", Kind::number, false, 0, 8},
     {"seed", Kind::number, false, 0, 4294967295.0},
+    {"tiling", Kind::text},
     {"models", Kind::array, false, 1, double(kMostModels)},
 };
 constexpr Member kLightMembers[] = {{"haze", Kind::number, false, 0, 10}};
@@ -158,6 +159,11 @@ void read_planting(Form& form, const Node& node, Layer& layer) {
     read_file_name(form, form.member(node, "density"), "a PNG", planting.density);
     planting.fairing_tiles = read_whole(form, node, "fairing_tiles", planting.fairing_tiles);
     planting.seed = read_whole(form, node, "seed", planting.seed);
+    planting.tiling = form.text(node, "tiling", "").substr(0, 64);
+    if (form.member(node, "tiling").value != nullptr &&
+        std::find(kTilings.begin(), kTilings.end(), planting.tiling) == kTilings.end())
+        form.fail(form.member(node, "tiling"), fmt::format("{} is no way to tile; did you mean {}?", planting.tiling,
+                                                           json::nearest(planting.tiling, kTilings)));
     for (const Node& item : form.items(form.member(node, "models")))
         read_file_name(form, item, "a baked chain of levels", planting.models.emplace_back());
     if (planting.lowest_m && planting.highest_m && *planting.highest_m < *planting.lowest_m)
@@ -204,6 +210,7 @@ std::string text_of(const Planting& planting) {
     if (planting.highest_m) text += fmt::format(", \"highest_m\": {}", *planting.highest_m);
     if (!planting.mask.empty()) text += ", \"mask\": " + json::quoted(planting.mask);
     if (!planting.density.empty()) text += ", \"density\": " + json::quoted(planting.density);
+    if (!planting.tiling.empty()) text += ", \"tiling\": " + json::quoted(planting.tiling);
     for (size_t i = 0; i < planting.models.size(); ++i)
         text += (i == 0 ? ", \"models\": [" : ", ") + json::quoted(planting.models[i]);
     return text + (planting.models.empty() ? "}" : "]}");

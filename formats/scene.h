@@ -42,6 +42,10 @@ Transform at_time(const Instance& instance, double time_s);
 
 using Setting = std::variant<bool, double, std::string>;
 
+// Ways to choose tiles: each by itself, or one after the other, as the paper does it.
+constexpr std::string_view kRandomAccess = "random-access", kRowByRow = "row-by-row";
+constexpr std::array<std::string_view, 2> kTilings = {kRandomAccess, kRowByRow};
+
 // Where on its ground what a layer plants stands: on the scene's terrain, or on a plain at height 0 if it has none. Files are
 // named relative to the scene's.
 struct Planting {
@@ -51,6 +55,7 @@ struct Planting {
     std::string density;         // a PNG over the ground: how densely, white as densely as anywhere; empty: white
     uint32_t fairing_tiles = 1;  // over so many tiles at its edge the planting thins out, 0..8
     uint32_t seed = 1;           // of the tiling
+    std::string tiling;          // one of kTilings; empty: by random access, or row by row where the tiles permit no other
     // Chains of levels of what is planted, in the order of the models in the baked file: what near tiles are drawn with. Empty:
     // none, and near tiles are drawn as far ones. At most kMostModels.
     std::vector<std::string> models;
@@ -123,6 +128,7 @@ struct Flight {
 //   "valley.scene.json:12:7: /layers/0/planting/mask: is empty; name a PNG" (also: begins with /, or holds a zero byte)
 //   "valley.scene.json:12:7: /layers/0/planting/highest_m: 200 is below lowest_m, 500"
 //   "valley.scene.json:12:7: /layers/0/planting/seed: 1.5 is no whole number"
+//   "valley.scene.json:12:7: /layers/0/planting/tiling: rows is no way to tile; did you mean row-by-row?"
 //   "a.flight.json:9:5: /keys/3/time_s: 2 is not after the key before, at 2"
 //   "a.flight.json:3:5: /interpolation: smoth is no interpolation; did you mean smooth?"
 //   "a.flight.json:2:3: /step_s: 1e-04 makes more than 10,000,000 frames of 1001 s; a longer step is wanted"

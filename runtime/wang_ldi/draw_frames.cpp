@@ -183,7 +183,7 @@ void FrameDrawer::warp(Slot& slot) {
             const StoredImage* image = image_at(index);
             return image == nullptr ? nullptr : &image->ldi;
         };
-        Hiding hiding = is_paper ? Hiding::by_order : Hiding::by_depth;
+        Hiding hiding = is_paper || !options_.is_by_depth ? Hiding::by_order : Hiding::by_depth;
         slot.counts.warp = warp_field(slot.camera, *slot.field, slot.list, at, hiding, slot.picture, &far_);
     } else {
         PreparedAt at = [this](uint64_t index) {
@@ -192,6 +192,7 @@ void FrameDrawer::warp(Slot& slot) {
         };
         FastOptions fast;
         fast.fills_holes = options_.fills_holes;
+        fast.hiding = options_.is_by_depth ? Hiding::by_depth : Hiding::by_order;
         slot.counts.warp = fast_.warp(slot.camera, *slot.field, slot.list, at, fast, slot.picture, &far_);
         slot.counts.holes_filled = fast_.holes_filled();
     }

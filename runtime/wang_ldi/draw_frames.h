@@ -80,7 +80,10 @@ class FrameDrawer {
     // Draws what was decided, or one frame earlier if it is pipelined, and resolves; need not wait until it is drawn.
     void draw(const gl::Target& target, const terrain::DrawOptions& look);
     const FrameCounts& counts() const { return slots_[shown_].counts; }  // of the frame that is drawn
-    const std::vector<Error>& faults() const { return faults_; }         // images of this frame that cannot be read
+    // What the frame that is drawn shows, and of which field.
+    const FieldList& list() const { return slots_[shown_].list; }
+    const Field& field() const { return *slots_[shown_].field; }
+    const std::vector<Error>& faults() const { return faults_; }  // images of this frame that cannot be read
     uint64_t budget_bytes() const { return store_->settings().residency_budget_bytes; }
 
   private:

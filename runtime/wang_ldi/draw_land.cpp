@@ -30,6 +30,8 @@ Result<ImageRgb8> read_map(const std::string& scene_path, const std::string& nam
 Result<PlantedOptions> options_of(const scene::Planting& planting, const std::string& scene_path) {
     PlantedOptions options;
     options.seed = planting.seed;
+    if (planting.tiling == scene::kRandomAccess) options.tiling = TilingKind::random_access;
+    if (planting.tiling == scene::kRowByRow) options.tiling = TilingKind::row_by_row;
     PlacementOptions& placement = options.placement;
     placement.lowest_m = planting.lowest_m.value_or(placement.lowest_m);
     placement.highest_m = planting.highest_m.value_or(placement.highest_m);
@@ -49,7 +51,7 @@ Result<std::unique_ptr<PlantedLand>> PlantedLand::read(container::Reader file, s
     if (!options) return tl::unexpected(options.error());
     std::unique_ptr<PlantedLand> made(new PlantedLand);
     made->is_plain_ = !terrain;
-    made->terrain_ = std::make_unique<const terrain::Terrain>(terrain ? std::move(*terrain) : plain_terrain());
+    made->terrain_ = std::make_unique<terrain::Terrain>(terrain ? std::move(*terrain) : plain_terrain());
     made->refiner_.emplace(*made->terrain_);
     Ground on = made->is_plain_ ? Ground::plain() : Ground(*made->terrain_);
     Result<std::unique_ptr<PlantedField>> planted = PlantedField::open(std::move(file), std::move(on), *options);
@@ -73,6 +75,10 @@ Result<void> PlantedLand::read_models() {
         models_.push_back(std::move(*chain));
     }
     return {};
+}
+
+void PlantedLand::paint_ground(const std::array<uint8_t, 3>& colour) {
+    terrain_->texture = {1, 1, {colour.begin(), colour.end()}};
 }
 
 Result<void> PlantedLand::upload() {

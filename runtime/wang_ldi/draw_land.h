@@ -1,6 +1,8 @@
 // Planted ground with what it stands on: as a scene says it, or a baked file by itself on a plain.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +31,9 @@ class PlantedLand {
     // terrain::Drawing::make and Plants::make.
     Result<void> upload();
 
+    // Before it is uploaded: one colour (sRGB-encoded) all over the terrain in place of its texture.
+    void paint_ground(const std::array<uint8_t, 3>& colour);
+
     const PlantedField& planted() const { return *planted_; }
     const terrain::Terrain& terrain() const { return *terrain_; }
     bool is_plain() const { return is_plain_; }
@@ -42,7 +47,7 @@ class PlantedLand {
   private:
     PlantedLand() = default;
 
-    std::unique_ptr<const terrain::Terrain> terrain_;
+    std::unique_ptr<terrain::Terrain> terrain_;
     bool is_plain_ = false;
     std::optional<terrain::Refiner> refiner_;
     std::unique_ptr<PlantedField> planted_;

@@ -19,9 +19,10 @@ Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
     std::vector<Rung> wanted;
     if (options.geometry_to_m > 0) wanted.push_back({Stage::geometry, 0, 0, 0, 0});
     double images_from_m = std::max(options.geometry_to_m, 0.0), images_to_m = std::min(options.texture_from_m, options.radius_m);
-    uint32_t first = level_for(set, images_from_m);
+    uint32_t first = level_for(set, images_from_m * options.coarser);
     for (uint32_t level = first; level < set.levels.size(); ++level)
-        wanted.push_back({Stage::ldi, level, level == first ? images_from_m : double(set.levels[level].nearest_m), 0, 0});
+        wanted.push_back(
+            {Stage::ldi, level, level == first ? images_from_m : double(set.levels[level].nearest_m) / options.coarser, 0, 0});
     wanted.push_back({Stage::texture, 0, std::max(options.texture_from_m, images_from_m), 0, 0});
     wanted.push_back({Stage::colour, 0, std::max(options.colour_from_m, options.texture_from_m), 0, 0});
     wanted.push_back({Stage::bare, 0, options.radius_m, 0, 0});

@@ -38,8 +38,9 @@ struct LadderOptions {
     double radius_m = std::numeric_limits<double>::infinity();       // nothing is drawn beyond
     // Of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other.
     double fade_share = 0.05;
+    double coarser = 1;  // > 0; levels begin so much nearer than the set has them, whose samples are so much wider in the picture
 };
-// The levels of the set that lie between, their distances as the set has them. Rungs that would have no room are left out.
+// The levels of the set that lie between. Rungs that would have no room are left out.
 Ladder ladder_of(const ImageSet& set, const LadderOptions& options);
 
 constexpr uint32_t kWhole = 256;  // what shares add up to

@@ -25,8 +25,8 @@ void copy(const glm::vec3& from, float (&to)[3]) {
 
 template <Hiding hiding>
 FastColumns<hiding>::FastColumns(const Eye& eye, const ImageSet& set, const PreparedLdi& ldi, uint32_t level,
-                                 const glm::dvec2& south_west_m, FastTools& tools)
-    : eye_(eye), ldi_(ldi), tools_(tools), frame_(eye, set, set.levels[level], !ldi.splats.empty(), 1, south_west_m) {
+                                 const SplatRule& rule, const glm::dvec2& south_west_m, FastTools& tools)
+    : eye_(eye), ldi_(ldi), tools_(tools), frame_(eye, set, set.levels[level], !ldi.splats.empty(), rule, south_west_m) {
     side_px = ldi.side_px;
     eye_column_ = cell_at((eye.position_m.x - south_west_m.x) / set.tile_m, side_px);
     const Canvas& canvas = *tools.canvas;

@@ -24,8 +24,8 @@ template <Hiding hiding>
 class FastColumns final : public Columns {
   public:
     // All must outlive this.
-    FastColumns(const Eye& eye, const ImageSet& set, const PreparedLdi& ldi, uint32_t level, const glm::dvec2& south_west_m,
-                FastTools& tools);
+    FastColumns(const Eye& eye, const ImageSet& set, const PreparedLdi& ldi, uint32_t level, const SplatRule& rule,
+                const glm::dvec2& south_west_m, FastTools& tools);
 
     void stand_on(const Plane& plane) override;
     void draw(uint32_t column, uint32_t row) override { draw_row(row, {column, column + 1}, nullptr); }

@@ -72,7 +72,8 @@ void FastTile<hiding>::choose(const Item& item, const glm::dvec2& corner_m) {
             const PreparedLdi* ldi = scene_.image_at(field.image_of(item, shown));
             tools_.counts.images_missing += ldi == nullptr;
             if (ldi == nullptr) continue;
-            all_.push_back(&images_.emplace_back(scene_.eye, *field.parts().images, *ldi, rung.level, corner_m, tools_));
+            SplatRule rule{1, field.options().widens_splats};
+            all_.push_back(&images_.emplace_back(scene_.eye, *field.parts().images, *ldi, rung.level, rule, corner_m, tools_));
         } else if (rung.stage != Stage::geometry && scene_.far != nullptr) {
             if (!texels_) texels_.emplace(scene_.eye, field, *scene_.far, item, brush_);
             all_.push_back(&textures_.emplace_back(*texels_, item.texels_px, shown.direction));

@@ -24,6 +24,8 @@ Result<void> check(const FieldOptions& options) {
         return bad_command("tiles in 2^{} pieces a side: 2^{} at most", options.most_pieces_log2, kMostPieces_log2);
     if (options.texture_side_px < 1 || options.texture_side_px > kMostTextureSide_px)
         return bad_command("textures of {} pixels a side: 1 to {} are needed", options.texture_side_px, kMostTextureSide_px);
+    if (!(options.ladder.coarser > 0 && std::isfinite(options.ladder.coarser)))
+        return bad_command("a field's levels {} times nearer: above 0 is needed", options.ladder.coarser);
     if (!(options.displacement_px > 0)) return bad_command("a displacement of {} px: above 0 is needed", options.displacement_px);
     const LadderOptions& ladder = options.ladder;
     if (!(ladder.radius_m > 0 && ladder.geometry_to_m >= 0 && ladder.texture_from_m >= 0 &&

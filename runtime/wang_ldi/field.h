@@ -25,7 +25,7 @@ struct FieldParts {
     const ImageSet* images = nullptr;
     std::span<const uint32_t> sample_counts;  // [images->ldi_count()], by index_of
     const TileSet* set = nullptr;
-    const RandomTiling* tiling = nullptr;  // of set
+    const PlaneTiling* tiling = nullptr;   // of set
     const Placement* placement = nullptr;  // of tiles of images->tile_m
     double overhang_m = 0;  // so far what is planted reaches over its tile's edges at most; where tiles are drawn as geometry
 };
@@ -39,6 +39,7 @@ struct FieldOptions {
     bool chooses_diagonals = true;  // false: all rise to the north-east
     uint32_t texture_side_px = 32;  // of a tile's textures
     double block_share = 0.25;      // side of a block of tiles at most, of its distance; 0..0.5
+    bool widens_splats = true;      // by as much as samples stand farther apart on a slope
 };
 // As the paper draws: tiles up to 40 tiles away by images alone, without fades, each sheared in two.
 FieldOptions paper_options(const ImageSet& set);

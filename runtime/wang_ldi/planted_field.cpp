@@ -5,6 +5,17 @@
 #include "formats/wang_ldi_layout.h"
 
 namespace overlook::wang_ldi {
+namespace {
+
+// The tiles that touch the ground, or kMostRowTiles a side about its middle.
+RowTiling::Rect rows_of(const Ground& ground, double tile_m) {
+    glm::dvec2 low = glm::floor(ground.extent().low_m / tile_m), high = glm::ceil(ground.extent().high_m / tile_m);
+    glm::dvec2 count = glm::clamp(high - low, glm::dvec2(1), glm::dvec2(kMostRowTiles));
+    low = glm::floor((low + high - count) / 2.0);
+    return {int64_t(low.x), int64_t(low.y), uint32_t(count.x), uint32_t(count.y)};
+}
+
+}  // namespace
 
 Result<std::unique_ptr<PlantedField>> PlantedField::open(container::Reader file, Ground on, const PlantedOptions& options) {
     std::unique_ptr<PlantedField> made(new PlantedField(std::move(file), std::move(on)));
@@ -36,9 +47,25 @@ Result<void> PlantedField::make_parts(const PlantedOptions& options) {
     Result<Placement> placement = Placement::of(ground_, shared.tile_m, options.placement);
     if (!placement) return tl::unexpected(placement.error());
     placement_.emplace(std::move(*placement));
-    Result<RandomTiling> tiling = RandomTiling::of(set_, options.seed, placement_->corners(set_, options.seed));
+    return tile(options);
+}
+
+Result<void> PlantedField::tile(const PlantedOptions& options) {
+    CornerAt corner_at = placement_->corners(set_, options.seed);
+    if (options.tiling != TilingKind::row_by_row) {
+        Result<RandomTiling> tiling = RandomTiling::of(set_, options.seed, corner_at);
+        if (tiling) {
+            tiling_ = std::make_unique<RandomTiling>(std::move(*tiling));
+            return {};
+        }
+        if (options.tiling == TilingKind::random_access || tiling.error().exit != Exit::impossible)
+            return tl::unexpected(Error{tiling.error().exit, fmt::format("{}: {}", name(), tiling.error().message)});
+    }
+    TilingOptions rows;
+    rows.seed = options.seed, rows.avoids_equal_neighbours = false, rows.corner_at = corner_at;
+    Result<RowTiling> tiling = RowTiling::of(set_, rows_of(ground_, placement_->tile_m()), rows);
     if (!tiling) return tl::unexpected(Error{tiling.error().exit, fmt::format("{}: {}", name(), tiling.error().message)});
-    tiling_.emplace(std::move(*tiling));
+    tiling_ = std::make_unique<RowTiling>(std::move(*tiling));
     return {};
 }
 

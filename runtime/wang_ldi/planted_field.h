@@ -15,9 +15,18 @@
 
 namespace overlook::wang_ldi {
 
+// How the ground's tiles are chosen.
+enum class TilingKind {
+    either,         // by random access, or row by row where the set of tiles permits none
+    random_access,  // tile by tile, by hashes of their places
+    row_by_row,  // as the paper; equal tiles may stand side by side. Kept whole: the ground, or kMostRowTiles tiles a side of it
+};
+constexpr uint32_t kMostRowTiles = 2048;
+
 struct PlantedOptions {
     PlacementOptions placement;
     uint64_t seed = 1;  // of the tiling
+    TilingKind tiling = TilingKind::either;
 };
 
 // Stays where it is, since its parts know each other.
@@ -25,7 +34,7 @@ class PlantedField {
   public:
     // Reads the set of tiles, the planting and the images' directory; none of the images. on: what the tiles stand on, whose
     // terrain must outlive this. The file may be hostile. Fails as wang_ldi::read, ImageReader::open, Placement::of and
-    // RandomTiling::of, and with Exit::bad_input:
+    // RandomTiling::of or RowTiling::of, and with Exit::bad_input:
     //   "meadow.ovl: holds a planting without images; bake it without --only planting to draw it"
     //   "meadow.ovl: has images of 3 tiles of 2 m for a planting of 12 tiles of 3 m"
     static Result<std::unique_ptr<PlantedField>> open(container::Reader file, Ground on, const PlantedOptions& options);
@@ -36,14 +45,15 @@ class PlantedField {
     const ImageReader& images() const { return *images_; }
     const TileSet& set() const { return set_; }
     const Planting& planting() const { return planting_; }
-    const RandomTiling& tiling() const { return *tiling_; }
+    const PlaneTiling& tiling() const { return *tiling_; }
     const Placement& placement() const { return *placement_; }
     const Ground& ground() const { return ground_; }
-    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, &*tiling_, &*placement_, overhang_m_}; }
+    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, tiling_.get(), &*placement_, overhang_m_}; }
 
   private:
     PlantedField(container::Reader file, Ground on) : file_(std::move(file)), ground_(std::move(on)) {}
     Result<void> make_parts(const PlantedOptions& options);
+    Result<void> tile(const PlantedOptions& options);
 
     container::Reader file_;
     Ground ground_;
@@ -53,7 +63,7 @@ class PlantedField {
     std::vector<uint32_t> sample_counts_;
     double overhang_m_ = 0;  // as FieldParts
     std::optional<Placement> placement_;
-    std::optional<RandomTiling> tiling_;
+    std::unique_ptr<const PlaneTiling> tiling_;
 };
 
 }  // namespace overlook::wang_ldi

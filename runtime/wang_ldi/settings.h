@@ -16,13 +16,18 @@ enum class Variant {
 
 struct FrameOptions {
     Variant variant = Variant::own;
-    double error_px = 1;          // > 0; of the terrain, and of what tiles stand off it
+    // > 0; of the terrain, of what tiles stand off it, and, of own, of samples: times as wide as the images were baked for.
+    double error_px = 1;
     double radius_m = 0;          // nothing is planted beyond; 0: the variant's own
     double fade = 0.05;           // of own: LadderOptions::fade_share
     double direction_fade = 0.1;  // of own: FieldOptions::direction_fade_share
     double geometry_m = 0;        // of own: nearer tiles are drawn as geometry, where there are models; 0: none
     bool is_exact = false;        // of own: warped as the paper's are, sample by sample, slowly
     bool fills_holes = true;      // of own, unless it is exact: small ones, as fill_holes
+    bool widens_splats = true;    // of own: FieldOptions::widens_splats
+    bool has_far = true;          // of own: textures and colours beyond the images; false: nothing is drawn there
+    bool is_by_depth = true;      // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
+    bool cuts_tiles = true;       // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
     bool is_pipelined = false;    // the warp of the next frame overlaps drawing this one, which is shown a frame late
     bool shows_rings = false;     // levels and directions by colours (the paper's figure 7)
 

@@ -37,21 +37,31 @@ class Columns {
     Thresholds by_rung, by_direction;  // which pixels are shown
 };
 
+// How wide samples are drawn.
+struct SplatRule {
+    float scale = 1;               // times the splats of the image
+    bool widens_on_slopes = true;  // by as much as they stand farther apart there
+};
+
 // How the samples of an image, level by level, come to where a camera sees them: a sample of a column at (x, y) of the tile at
 // corner + y north + x east + height up, single numbers that all ways of warping round alike.
 struct ImageFrame {
     // south_west_m: x and y of the tile's corner.
-    ImageFrame(const Eye& eye, const ImageSet& set, const Level& level, bool has_splats, float splat_scale,
+    ImageFrame(const Eye& eye, const ImageSet& set, const Level& level, bool has_splats, const SplatRule& rule,
                const glm::dvec2& south_west_m_)
-        : south_west_m(south_west_m_), low_m(set.low_m), pixel_m(float(set.tile_m / level.side_px)), step_m(level.height_step_m) {
-        flat_splat = float(eye.focal_px * (set.tile_m / level.side_px)) * splat_scale * (has_splats ? 1.0f / 16 : level.splat_px);
+        : south_west_m(south_west_m_),
+          widens_splats(rule.widens_on_slopes),
+          low_m(set.low_m),
+          pixel_m(float(set.tile_m / level.side_px)),
+          step_m(level.height_step_m) {
+        flat_splat = float(eye.focal_px * (set.tile_m / level.side_px)) * rule.scale * (has_splats ? 1.0f / 16 : level.splat_px);
         up = eye.seen({0, 0, 1});
     }
     // On a slope samples stand farther apart, and splats are as much wider.
     void stand_on(const Eye& eye, const Plane& plane) {
         corner = eye.seen(glm::dvec3(south_west_m, plane.height_m + low_m) - eye.position_m);
         east = eye.seen({1, 0, plane.slope.x}), north = eye.seen({0, 1, plane.slope.y});
-        splat = flat_splat * float(std::sqrt(1 + glm::dot(plane.slope, plane.slope)));
+        splat = widens_splats ? flat_splat * float(std::sqrt(1 + glm::dot(plane.slope, plane.slope))) : flat_splat;
         eye_height_m = eye.position_m.z - plane.height_m - low_m, slope = plane.slope;
     }
     float middle_m(uint32_t pixel) const { return (float(pixel) + 0.5f) * pixel_m; }
@@ -61,6 +71,7 @@ struct ImageFrame {
     }
 
     glm::dvec2 south_west_m, slope{0};
+    bool widens_splats;
     double low_m, eye_height_m = 0;
     float pixel_m, step_m, flat_splat = 0, splat = 0;
     glm::vec3 corner{0}, east{0}, north{0}, up{0};  // as Eye::seen
@@ -71,12 +82,12 @@ template <class Brush>
 class ImageColumns final : public Columns {
   public:
     // All must outlive this.
-    ImageColumns(const Eye& eye, const ImageSet& set, const Ldi& ldi, uint32_t level, float splat_scale,
+    ImageColumns(const Eye& eye, const ImageSet& set, const Ldi& ldi, uint32_t level, const SplatRule& rule,
                  const glm::dvec2& south_west_m, Brush& brush)
         : eye_(eye),
           ldi_(ldi),
           brush_(brush),
-          frame_(eye, set, set.levels[level], !ldi.splats.empty(), splat_scale, south_west_m),
+          frame_(eye, set, set.levels[level], !ldi.splats.empty(), rule, south_west_m),
           palette_(packed_palette(ldi)) {
         side_px = ldi.side_px;
     }

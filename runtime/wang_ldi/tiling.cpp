@@ -143,6 +143,21 @@ Result<Tiling> tile_row_by_row(const TileSet& set, uint32_t columns, uint32_t ro
     return tiling;
 }
 
+Result<RowTiling> RowTiling::of(const TileSet& set, const Rect& rect, const TilingOptions& options) {
+    TilingOptions inside = options;
+    if (options.corner_at) inside.corner_at = [&](int64_t x, int64_t y) { return options.corner_at(rect.x + x, rect.y + y); };
+    auto tiling = tile_row_by_row(set, rect.columns, rect.rows, inside);
+    if (!tiling) return tl::unexpected(tiling.error());
+    RowTiling made;
+    made.rect_ = rect, made.tiling_ = std::move(*tiling);
+    return made;
+}
+
+uint8_t RowTiling::at(int64_t x, int64_t y) const {
+    auto inside = [](int64_t value, int64_t count) { return uint32_t((value % count + count) % count); };
+    return tiling_.at(inside(x - rect_.x, rect_.columns), inside(y - rect_.y, rect_.rows));
+}
+
 NeighbourCount count_neighbours(const TileSet& set, const Tiling& tiling) {
     NeighbourCount count;
     for (uint32_t y = 0; y < tiling.rows; ++y)

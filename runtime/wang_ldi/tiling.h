@@ -57,17 +57,44 @@ struct NeighbourCount {
 };
 NeighbourCount count_neighbours(const TileSet& set, const Tiling& tiling);
 
+// Tiles of a set everywhere on the plane.
+class PlaneTiling {
+  public:
+    virtual ~PlaneTiling() = default;
+    virtual uint8_t at(int64_t x, int64_t y) const = 0;  // index into TileSet::tiles. Any thread
+};
+
+// A tiling row by row, kept whole: the rectangle of columns x rows tiles from (x, y) on, beyond which it repeats, with edges that
+// need not agree there.
+class RowTiling final : public PlaneTiling {
+  public:
+    struct Rect {
+        int64_t x = 0, y = 0;
+        uint32_t columns = 1, rows = 1;
+    };
+    // options.corner_at is asked for corners of the plane. Fails as tile_row_by_row. Memory: a byte a tile.
+    static Result<RowTiling> of(const TileSet& set, const Rect& rect, const TilingOptions& options);
+
+    uint8_t at(int64_t x, int64_t y) const override;
+
+  private:
+    RowTiling() = default;
+    Rect rect_;
+    Tiling tiling_;
+};
+
 // A tiling of the whole plane that keeps no tile. Edges between blocks of block() x block() tiles are coloured by a hash of their
 // place; what is inside follows from them. block() is 1 for a set that has a tile for every four colours (whose corners agree):
 // then at() is one look-up. Else it is the smallest with which every block's border can be filled, which is tried out once for
-// every border and all corners inside; sets of 12 tiles need 2, with borders of the planting too. A prototile with variants never stands beside itself in the same variant.
-class RandomTiling {
+// every border and all corners inside; sets of 12 tiles need 2, with borders of the planting too. A prototile with variants never
+// stands beside itself in the same variant.
+class RandomTiling final : public PlaneTiling {
   public:
     // Exit::impossible: "a set of 8 tiles permits no random access: some border of 4 x 4 tiles cannot be filled, or there are too
     // many to try".
     static Result<RandomTiling> of(const TileSet& set, uint64_t seed, CornerAt corner_at = {});
 
-    uint8_t at(int64_t x, int64_t y) const;  // index into TileSet::tiles
+    uint8_t at(int64_t x, int64_t y) const override;
     uint32_t block() const { return block_; }
 
   private:

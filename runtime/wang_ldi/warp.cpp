@@ -16,7 +16,7 @@ void warp_all(const view::Camera& camera, const ImageSet& set, std::span<const D
     using Painting = Brush<PictureTarget<hiding>>;
     Painting brush(eye, PictureTarget<hiding>(picture), counts);
     for (const Drawn& drawn : back_to_front) {
-        ImageColumns<Painting> columns(eye, set, *drawn.ldi, drawn.level, drawn.splat_scale, glm::dvec2(drawn.origin_m), brush);
+        ImageColumns<Painting> columns(eye, set, *drawn.ldi, drawn.level, {drawn.splat_scale}, glm::dvec2(drawn.origin_m), brush);
         columns.stand_on({drawn.origin_m.z, drawn.slope});
         Columns* all[] = {&columns};
         glm::dvec2 eye_share = glm::dvec2(eye.position_m - drawn.origin_m) / set.tile_m;

@@ -59,8 +59,8 @@ class FieldWarper {
                 const Ldi* ldi = image_at_(field_.image_of(item, shown));
                 counts_.images_missing += ldi == nullptr;
                 if (ldi == nullptr) continue;
-                owners.push_back(
-                    std::make_unique<ImageColumns<Painting>>(eye_, images, *ldi, rung.level, 1.0f, corner_m, brush_));
+                owners.push_back(std::make_unique<ImageColumns<Painting>>(
+                    eye_, images, *ldi, rung.level, SplatRule{1, field_.options().widens_splats}, corner_m, brush_));
             } else if (rung.stage != Stage::geometry && far_ != nullptr) {
                 if (!texels) texels = std::make_unique<TexelPainter<Painting>>(eye_, field_, *far_, item, brush_);
                 owners.push_back(std::make_unique<TexelColumns<Painting>>(*texels, item.texels_px, shown.direction));

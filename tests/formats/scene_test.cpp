@@ -185,7 +185,7 @@ TEST(Scene, NamesThePlaceOfEveryMistakeInItsInstances) {
 const std::string kMeadow = R"({"version": 1, "layers": [
   {"asset": "hills.ovl", "method": "terrain"},
   {"asset": "meadow.ovl", "method": "wang-ldi:paper", "planting": {"lowest_m": 100, "highest_m": 900.5, "steepest": 0.4,
-    "mask": "a/mask.png", "density": "d.png", "fairing_tiles": 3, "seed": 77, "models": ["poppy.ovl", "rye.ovl"]}}]})";
+    "mask": "a/mask.png", "density": "d.png", "fairing_tiles": 3, "seed": 77, "tiling": "row-by-row", "models": ["poppy.ovl", "rye.ovl"]}}]})";
 
 TEST(Scene, HoldsWhereWhatItPlantsStands) {
     Result<Scene> scene = parse_scene(kMeadow, "s.json");
@@ -193,7 +193,8 @@ TEST(Scene, HoldsWhereWhatItPlantsStands) {
     EXPECT_FALSE(scene->layers[0].planting);
     Planting wanted;
     wanted.lowest_m = 100, wanted.highest_m = 900.5, wanted.steepest = 0.4, wanted.mask = "a/mask.png";
-    wanted.density = "d.png", wanted.fairing_tiles = 3, wanted.seed = 77, wanted.models = {"poppy.ovl", "rye.ovl"};
+    wanted.density = "d.png", wanted.fairing_tiles = 3, wanted.seed = 77, wanted.tiling = "row-by-row",
+    wanted.models = {"poppy.ovl", "rye.ovl"};
     EXPECT_TRUE(scene->layers[1].planting == wanted);
     std::string text = json_from_scene(*scene);
     Result<Scene> again = parse_scene(text, "s.json");
@@ -222,8 +223,10 @@ TEST(Scene, NamesThePlaceOfEveryMistakeInItsPlanting) {
               "s.json:4:64: /layers/1/planting/fairing_tiles: 0.5 is no whole number"},
              {"77", "1.5", "s.json:4:75: /layers/1/planting/seed: 1.5 is no whole number"},
              {"77", "-1", "s.json:4:75: /layers/1/planting/seed: -1 is outside 0..4294967295"},
-             {"\"rye.ovl\"", "[]", "s.json:4:103: /layers/1/planting/models/1: is no text; name a baked chain of levels"},
-             {"rye.ovl", "", "s.json:4:103: /layers/1/planting/models/1: is empty; name a baked chain of levels"},
+             {"row-by-row", "rows", "s.json:4:89: /layers/1/planting/tiling: rows is no way to tile; did you mean row-by-row?"},
+             {"row-by-row", "", "s.json:4:89: /layers/1/planting/tiling:  is no way to tile; did you mean row-by-row?"},
+             {"\"rye.ovl\"", "[]", "s.json:4:127: /layers/1/planting/models/1: is no text; name a baked chain of levels"},
+             {"rye.ovl", "", "s.json:4:127: /layers/1/planting/models/1: is empty; name a baked chain of levels"},
              {"\"mask\"", "\"msk\"", "s.json:4:5: /layers/1/planting/msk: is not known here; did you mean mask?"},
          }) {
         EXPECT_EQ(scene_error(replaced(kMeadow, c.from, c.to)), c.message);

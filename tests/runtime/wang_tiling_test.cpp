@@ -120,6 +120,32 @@ TEST(RowTiling, PlantsAnyBorderThatItIsGiven) {
     EXPECT_GE(partly, 200u);
 }
 
+TEST(RowTiling, StandsOnThePlaneAsItWasMadeAndRepeatsBeyond) {
+    TileSet set = set_of(8);
+    TilingOptions options;
+    options.avoids_equal_neighbours = false;
+    auto rows = RowTiling::of(set, {-20, 7, 40, 30}, options);
+    ASSERT_TRUE(rows) << rows.error().message;
+    Tiling made = tiled(set, 40, 30, options);
+    for (int64_t y = 0; y < 30; ++y)
+        for (int64_t x = 0; x < 40; ++x) {
+            ASSERT_EQ(rows->at(x - 20, y + 7), made.at(uint32_t(x), uint32_t(y)));
+            ASSERT_EQ(rows->at(x - 20 - 3 * 40, y + 7 + 2 * 30), made.at(uint32_t(x), uint32_t(y)));
+        }
+}
+
+TEST(RowTiling, AsksForCornersWhereTheyAreOnThePlane) {
+    TileSet set = corners_of_densities({0, 1});
+    TilingOptions options;
+    options.avoids_equal_neighbours = false;
+    options.corner_at = [](int64_t x, int64_t y) { return uint8_t((x / 5 + y) & 1); };
+    auto rows = RowTiling::of(set, {3, 11, 24, 16}, options);
+    ASSERT_TRUE(rows) << rows.error().message;
+    for (int64_t y = 11; y < 27; ++y)
+        for (int64_t x = 3; x < 27; ++x)
+            ASSERT_EQ(corners_of(set, set.tiles[rows->at(x, y)])[0], options.corner_at(x, y)) << x << " " << y;
+}
+
 TEST(RandomTiling, AgreesAtEveryEdgeAndIsTheSameInAnyOrder) {
     for (uint32_t tiles : {12u, 16u}) {
         TileSet set = set_of(tiles);
@@ -212,7 +238,9 @@ TEST(DensityMap, IsFollowedWithEveryEdgeMet) {
 TEST(DensityMap, UsesEveryColourOfADensitySoThatEvenGroundDoesNotRepeat) {
     for (const std::vector<float>& densities : {std::vector<float>{1, 1}, {1, 1, 0}, {0, 1, 1}}) {
         TileSet set = corners_of_densities(densities);
-        auto even = RandomTiling::of(set, 4, corners_of_density(set, [](int64_t, int64_t) { return 1.0; }, 4));
+        auto even = RandomTiling::of(set, 4,
+                                     corners_of_density(
+                                         set, [](int64_t, int64_t) { return 1.0; }, 4));
         ASSERT_TRUE(even) << even.error().message;
         Tiling tiling = window_of(*even, -20, 7, 512);
         EXPECT_EQ(std::set<uint8_t>(tiling.tiles.begin(), tiling.tiles.end()).size(), 16u);

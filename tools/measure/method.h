@@ -31,6 +31,7 @@ struct Counters {
     uint64_t sample_count = 0;        // of layered depth images, warped
     uint64_t tile_count = 0;          // of planted ground, drawn by them
     uint64_t outside_count = 0;       // of those, seen from where they were not sampled for
+    bool is_eye_outside = false;      // of planted ground: not as high above it as images were sampled for
     uint64_t missing_count = 0;       // images that another stood in for, or none
     uint64_t camera_bytes = 0;        // what cameras keep in main memory beside what they share
     uint64_t wrong_corner_count = 0;  // of triangles drawn with the attributes of another face
@@ -38,6 +39,11 @@ struct Counters {
 
     bool operator==(const Counters&) const = default;
 };
+
+// What a budget holds: triangles, and of planted ground samples besides.
+inline double cost_of(const Counters& counters) {
+    return double(counters.triangle_count + counters.sample_count);
+}
 
 // Where the pixels of a frame came from, of a method that shows pictures again.
 struct Sources {
@@ -62,7 +68,8 @@ class Method {
     virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
     // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.
     virtual Counters draw(const gl::Target& target) = 0;
-    // From the next frame on, so many triangles in all may be drawn a frame. Returns whether the method keeps budgets.
+    // From the next frame on, so much in all may be drawn a frame, as cost_of() counts. 0: as much as it takes. Returns whether
+    // the method keeps budgets.
     virtual bool set_triangles(double triangles) {
         static_cast<void>(triangles);
         return false;

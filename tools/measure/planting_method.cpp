@@ -1,6 +1,11 @@
 #include "tools/measure/planting_method.h"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+
 #include "runtime/terrain/refine.h"
+#include "runtime/view/error_budget.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/still.h"
 
@@ -14,11 +19,18 @@ wang_ldi::Variant variant_of(const MethodSpec& spec) {
     return spec.variant == "paper" ? wang_ldi::Variant::paper : wang_ldi::Variant::own;
 }
 
-wang_ldi::FrameOptions options_of(const MethodSpec& spec) {
-    wang_ldi::FrameOptions options = wang_ldi::defaults_of(variant_of(spec));
-    for (const auto& [name, value] : spec.settings)
-        if (name != kMemoryMib.name && name != kSamples.name) wang_ldi::set(options, name, value);
-    return options;
+// How much of a tile's places a means is shown at.
+double share_of(const wang_ldi::Shown& shown) {
+    return double(shown.by_rung.share()) * shown.by_direction.share() / (double(wang_ldi::kWhole) * wang_ldi::kWhole);
+}
+
+// Of the places of a tile, how many may be shown by the same means in both.
+double same_share(std::span<const wang_ldi::Shown> a, std::span<const wang_ldi::Shown> b) {
+    double same = 0;
+    for (const wang_ldi::Shown& one : a)
+        for (const wang_ldi::Shown& other : b)
+            if (one.rung == other.rung && one.direction == other.direction) same += std::min(share_of(one), share_of(other));
+    return same;
 }
 
 wang_ldi::ImageStreaming streaming_of(const MethodSpec& spec) {
@@ -31,14 +43,21 @@ wang_ldi::ImageStreaming streaming_of(const MethodSpec& spec) {
 
 class Planting : public Method {
   public:
-    Planting(World& world, const MethodSpec& spec) : world_(world) {
-        frames_ = still(
-            wang_ldi::FrameDrawer::make(world.planted->planted(), world.planted->land(), options_of(spec), streaming_of(spec)));
+    Planting(World& world, const MethodSpec& spec) : world_(world), asked_(planting_options(spec)) {
+        frames_ = still(wang_ldi::FrameDrawer::make(world.planted->planted(), world.planted->land(), asked_, streaming_of(spec)));
     }
 
     void decide(const view::Camera& camera, uint32_t frame) override {
+        if (controller_) {
+            wang_ldi::FrameOptions options = asked_;
+            options.error_px = controller_->error_px();
+            if (options != frames_->options()) frames_->change(options);
+        }
         still(frames_->decide(camera, double(frame - last_frame_) * world_.step_s, terrain::kDefaultMorph));
         last_frame_ = frame;
+        event_count_ = exchanged_tiles(before_, frames_->list());
+        before_ = frames_->list();
+        is_counted_ = false;
     }
 
     Counters draw(const gl::Target& target) override {
@@ -53,19 +72,61 @@ class Planting : public Method {
         counters.resident_bytes = world_.resident_bytes + counts.stream.resident_bytes;
         counters.streamed_bytes = counts.stream.resident_bytes;
         counters.sample_count = counts.warp.samples, counters.tile_count = counts.field.tiles_listed;
-        counters.outside_count = counts.field.outside_cell;
+        counters.outside_count = counts.field.outside_cell, counters.is_eye_outside = counts.is_eye_outside;
+        counters.event_count = event_count_;
         counters.missing_count = counts.images.stand_ins + counts.images.missing;
         counters.predicted_error_px = counts.predicted_error_px;
+        if (controller_ && !is_counted_) controller_->frame_done(cost_of(counters));
+        is_counted_ = true;
         return counters;
+    }
+
+    // By the error asked, which moves levels as well as the terrain.
+    bool set_triangles(double cost) override {
+        if (cost == 0) {
+            controller_.reset();
+            frames_->change(asked_);
+            return true;
+        }
+        view::ErrorBudget budget{cost, asked_.error_px, false};
+        if (controller_)
+            controller_->set_budget(budget);
+        else
+            controller_.emplace(budget);
+        return true;
     }
 
   private:
     World& world_;
+    wang_ldi::FrameOptions asked_;
     std::unique_ptr<wang_ldi::FrameDrawer> frames_;
+    std::optional<view::ErrorController> controller_;
+    wang_ldi::FieldList before_;
+    uint64_t event_count_ = 0;
     uint32_t last_frame_ = 0;
+    bool is_counted_ = false;  // a frame may be drawn again
 };
 
 }  // namespace
+
+wang_ldi::FrameOptions planting_options(const MethodSpec& spec) {
+    wang_ldi::FrameOptions options = wang_ldi::defaults_of(variant_of(spec));
+    for (const auto& [name, value] : spec.settings)
+        if (name != kMemoryMib.name && name != kSamples.name) wang_ldi::set(options, name, value);
+    return options;
+}
+
+uint64_t exchanged_tiles(const wang_ldi::FieldList& before, const wang_ldi::FieldList& now) {
+    std::map<std::pair<int64_t, int64_t>, const wang_ldi::Item*> known;
+    for (const wang_ldi::Item& item : before.items)
+        if (item.tiles_log2 == 0) known[{item.i, item.j}] = &item;
+    uint64_t count = 0;
+    for (const wang_ldi::Item& item : now.items) {
+        auto found = item.tiles_log2 == 0 ? known.find({item.i, item.j}) : known.end();
+        if (found != known.end()) count += same_share(before.shown_of(*found->second), now.shown_of(item)) <= 0.5;
+    }
+    return count;
+}
 
 std::vector<SettingKind> planting_settings(wang_ldi::Variant variant) {
     std::span<const SettingKind> own = wang_ldi::setting_kinds(variant);

@@ -186,7 +186,7 @@ class Judge {
         FrameRecord& record = result.frames[frame];
         go_to(frame);
         auto around = [&](uint32_t margin_px) { return reference_.surroundings(course_.cameras[frame], margin_px); };
-        HoleRule rule{promised_px(result.spec, record.counters), nullptr, world_.is_chain()};
+        HoleRule rule{promised_px(result.spec, record.counters), nullptr, world_.is_chain() || world_.is_planted()};
         return judge_picture(test, truth, rule, around, record.numbers);
     }
 

@@ -26,6 +26,8 @@ constexpr Member kCaseMembers[] = {
     {"mesh_flight", Kind::text},
     {"chain_scene", Kind::text},
     {"chain_flight", Kind::text},
+    {"planting_scene", Kind::text},
+    {"planting_flight", Kind::text},
     {"settings", Kind::object},
     {"gates", Kind::array, true, 1, 8},
     {"methods", Kind::array, true, 1, 5},
@@ -71,6 +73,7 @@ constexpr std::string_view kFigures[] = {
 };
 constexpr std::string_view kMeshMethods[] = {"lod-sprite", "caveclod", "discrete"};  // draw meshes, the first terrains as well
 constexpr std::string_view kChainMethod = "discrete";                                // draws chains as well
+constexpr std::string_view kPlantingMethod = "wang-ldi";                             // draws plantings and nothing else
 constexpr std::string_view kSides[] = {"all", "geometry", "image"};
 
 template <class Names>
@@ -157,6 +160,11 @@ void check_whole(Form& form, const Case& made) {
     }
     for (const Node& run : form.items(runs)) {
         bool is_of_mesh = is_one_of(kMeshMethods, run.value->text), is_of_chain = run.value->text == kChainMethod;
+        if (run.value->text == kPlantingMethod) {
+            if (made.planting_scene.empty() || made.planting_flight.empty())
+                form.fail(runs, "a case that wang-ldi runs needs a planting_scene and a planting_flight");
+            continue;
+        }
         bool has_scene =
             !made.scene.empty() || (is_of_mesh && !made.mesh_scene.empty()) || (is_of_chain && !made.chain_scene.empty());
         bool has_flight =
@@ -176,6 +184,11 @@ Case for_meshes(Case each) {
 Case for_chains(Case each) {
     each.scene = each.chain_scene;
     if (!each.chain_flight.empty()) each.flight = each.chain_flight;
+    return each;
+}
+
+Case for_plantings(Case each) {
+    each.scene = each.planting_scene, each.flight = each.planting_flight;
     return each;
 }
 
@@ -204,6 +217,8 @@ Result<Case> parse_case(std::string_view text, const std::string& name) {
     made.mesh_flight = form.text(form.root(), "mesh_flight", "");
     made.chain_scene = form.text(form.root(), "chain_scene", "");
     made.chain_flight = form.text(form.root(), "chain_flight", "");
+    made.planting_scene = form.text(form.root(), "planting_scene", "");
+    made.planting_flight = form.text(form.root(), "planting_flight", "");
     made.settings = read_settings(form, form.member(form.root(), "settings"));
     for (const Node& gate : form.items(form.member(form.root(), "gates"))) made.gates.push_back(read_gate(form, gate));
     made.methods = read_methods(form, form.member(form.root(), "methods"));
@@ -222,8 +237,8 @@ Result<std::vector<Case>> read_cases(const std::string& folder) {
         Result<Case> made = parse_case({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
         if (!made) return tl::unexpected(made.error());
         if (made->number != fmt::format("S{:02}", i)) return bad_input("{}: is case {}", path, made->number);
-        for (std::string* path_in :
-             {&made->scene, &made->flight, &made->mesh_scene, &made->mesh_flight, &made->chain_scene, &made->chain_flight}) {
+        for (std::string* path_in : {&made->scene, &made->flight, &made->mesh_scene, &made->mesh_flight, &made->chain_scene,
+                                     &made->chain_flight, &made->planting_scene, &made->planting_flight}) {
             if (!path_in->empty()) *path_in = folder + "/" + *path_in;
         }
         cases.push_back(std::move(*made));

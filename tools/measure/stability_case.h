@@ -4,6 +4,7 @@
 //      "scene": "../scenes/sample.json", "flight": "../flights/s01.json",     paths relative to the case's file
 //      "mesh_scene": "../scenes/sample-mesh.json", "mesh_flight": "...",      for methods that draw meshes; may be left out
 //      "chain_scene": "../scenes/chains.json", "chain_flight": "...",         for discrete:fsi and its like; may be left out
+//      "planting_scene": "../scenes/planting.json", "planting_flight": "...", for wang-ldi; may be left out
 //      "settings": {"drop_every": 7},
 //      "gates": [{"figure": "pop_index_ratio", "most": 1.1}],
 //      "methods": ["terrain", "lod-sprite"], "runs": ["terrain"],
@@ -57,6 +58,8 @@ struct Case {
     std::string mesh_scene{}, mesh_flight{};
     // Of methods that draw chains of levels and nothing else; empty = the case is not run for them.
     std::string chain_scene{}, chain_flight{};
+    // Of wang-ldi, likewise.
+    std::string planting_scene{}, planting_flight{};
 };
 
 // The case as methods that draw meshes fly it.
@@ -64,6 +67,9 @@ Case for_meshes(Case each);
 
 // The case as methods that draw chains alone fly it.
 Case for_chains(Case each);
+
+// The case as wang-ldi flies it.
+Case for_plantings(Case each);
 
 // Whether it runs for no method of terrains.
 bool is_of_meshes_alone(const Case& each);

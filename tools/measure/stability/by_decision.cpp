@@ -123,7 +123,10 @@ Result<Finding> operations_at_rest(const Stage& stage, const MethodSpec& spec, c
     finding.sentence = fmt::format(
         "{} {} in the first second and {} after it, {} of these while the camera stood still; the last one in "
         "frame {}.",
-        stage.world.is_chain() ? "changes of level" : "splits and collapses", first_second, switches, while_still, last);
+        stage.world.is_planted() ? "tiles that were shown by another image at once"
+        : stage.world.is_chain() ? "changes of level"
+                                 : "splits and collapses",
+        first_second, switches, while_still, last);
     Result<Shot> shot = shot_of(stage, spec, cameras[last], last);
     if (!shot) return tl::unexpected(shot.error());
     finding.worst = std::move(*shot);
@@ -165,7 +168,7 @@ Result<std::vector<double>> costs_of(Stage& stage, const MethodSpec& spec, const
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         if (frame == cameras.size() / 2) method->set_triangles(share * budget);
         method->decide(cameras[frame], frame);
-        costs.push_back(double(method->draw(*target).triangle_count));
+        costs.push_back(cost_of(method->draw(*target)));
     }
     return costs;
 }
@@ -202,9 +205,10 @@ Result<Finding> halved_budget_by_method(Stage& stage, const MethodSpec& spec, co
     finding.frames = uint32_t(cameras.size());
     auto [least, most] = std::minmax_element(costs->begin() + ptrdiff_t(middle + kSettled), costs->end());
     finding.sentence = fmt::format(
-        "A frame takes {:.0f} triangles without a budget{}. {:.0f} allowed from frame {} on: {:.0f} to {:.0f} drawn, {} frames "
+        "A frame takes {:.0f} {} without a budget{}. {:.0f} allowed from frame {} on: {:.0f} to {:.0f} drawn, {} frames "
         "after that.",
-        mean, is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled);
+        mean, stage.world.is_planted() ? "samples and triangles" : "triangles",
+        is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled);
     Result<Shot> shot = shot_of(stage, spec, cameras.back(), uint32_t(cameras.size() - 1));
     if (!shot) return tl::unexpected(shot.error());
     finding.worst = std::move(*shot);
@@ -249,6 +253,12 @@ Result<std::vector<Finding>> run_slopes(Stage& stage, const Case&, const scene::
     std::vector<view::Camera> cameras = cameras_of(few, flight, Pick::spread);
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
+        if (stage.world.is_planted()) {
+            Result<Finding> shear = planted_shear(stage, spec, flight);
+            if (!shear) return tl::unexpected(shear.error());
+            findings.push_back(std::move(*shear));
+            continue;
+        }
         if (is_image(spec)) {
             Result<Finding> shear = shear_of(stage, spec, flight);
             if (!shear) return tl::unexpected(shear.error());

@@ -206,6 +206,9 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
                                          "By its levels' proven bounds nothing is drawn farther than {:.3f} px from its "
                                          "place, {} px asked.",
                                          worst_px, stage.asked_px)
+            : stage.world.is_planted()
+                ? fmt::format("Of its terrain it promises {:.3f} px, {} px asked; images are as wide as they were baked.",
+                              worst_px, stage.asked_px)
             : is_image(specs[i])
                 ? fmt::format("It promises no worse than {:.3f} px for 99 % of a frame's pixels, {} px asked; not measured.",
                               worst_px, stage.asked_px)
@@ -234,7 +237,7 @@ Result<std::vector<Finding>> run_teleports(Stage& stage, const Case&, const scen
                 longest, stage.asked_px);
             continue;
         }
-        if (is_image(specs[i]) || stage.world.is_chain()) {
+        if (is_image(specs[i]) || stage.world.is_chain() || stage.world.is_planted()) {
             std::unique_ptr<Method> method = stage.make(specs[i], stage.world);
             uint32_t frame = 0, longest = 0;
             for (const view::Camera& camera : arrivals) {
@@ -298,6 +301,10 @@ Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::F
     std::vector<view::Camera> cameras = cameras_of(stage, flight, pick_of(specs, Pick::spread));
     Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
+    if (stage.world.is_planted()) {
+        say_fallbacks(stage, specs, cameras, *findings);
+        return findings;
+    }
     // A terrain is baked for every distance down to where its own heights are too coarse for the error asked: nearer, it falls
     // back to them. It says so by predicting more than was asked.
     double finest_m = stage.world.terrain->finest_error_m;

@@ -64,7 +64,7 @@ Result<std::vector<Case>> chosen_cases(const SuiteOptions& options) {
 Result<std::string> scene_path(const SuiteOptions& options, const std::vector<Case>& cases) {
     if (!options.scene.empty()) return options.scene;
     for (const Case& each : cases) {
-        for (const std::string& path : {each.scene, each.mesh_scene, each.chain_scene})
+        for (const std::string& path : {each.scene, each.mesh_scene, each.chain_scene, each.planting_scene})
             if (!path.empty()) return path;
     }
     return bad_command("none of these cases has a scene; give --scene");

@@ -119,6 +119,14 @@ double displacement_of(Method& method);
 // place it shows; held against where full geometry has that place. Outlines are left out. Fails with Exit::impossible.
 Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flight& flight);
 
+// S08 of planted ground: adds whether every frame whose eye is higher or lower than images were sampled for was said to be such.
+void say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::vector<view::Camera>& cameras,
+                   std::vector<Finding>& findings);
+
+// S11 of planted ground: how far, on the picture, the sheared ground under drawn images stands from the real one; not of what is
+// not drawn by images. Fails with Exit::impossible where the flight shows no such tile.
+Result<Finding> planted_shear(Stage& stage, const MethodSpec& spec, const scene::Flight& flight);
+
 // S18: cameras that fly at once, each with a method of its own from `make`, all over what these share. legs: [cameras][frames] >=
 // 1, equally long. Every frame is decided for all cameras, then drawn for all, beginning with another one each time; then each
 // camera flies alone. Fails with Exit::impossible (targets).
