@@ -85,7 +85,9 @@ Target median_w(const Flown& flown) {
     };
     Target is{"median W of a film, times hard switching's", "-", 1.1, false, {}, "", ""};
     is = of_films(flown, is, over_switch);
-    if (!is.is_reached(1)) is.why = "eight of its 22 frames change; of each film: " + each(flown, over_switch);
+    if (!is.is_reached(1))
+        is.why = "it is that of the frames at rest before the change, as eight of its 22 frames change; of each film: " +
+                 each(flown, over_switch);
     return is;
 }
 
@@ -195,7 +197,10 @@ Target optimised(const Flown& flown) {
             }
         is.measured.push_back(least);
     }
-    if (is.measured[1] && !is.is_reached(1)) is.why = "the colours change as well as the outline, which no visibility helps";
+    if (is.measured[1] && !is.is_reached(1))
+        is.why =
+            "the colours change as well as the outline, which no visibility helps; the softer places appear, the less noise is "
+            "seen";
     return is;
 }
 
