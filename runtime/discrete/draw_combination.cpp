@@ -153,6 +153,37 @@ void Combiner::fill_tiles(const gl::Target& target, const Combination& combinati
     fill(tiles_, ones), fill(entries_, entries), fill(moved_, combination.moved);
 }
 
+// Returns calls made.
+uint64_t Combiner::draw_tiles(bool is_one, bool moves, const gl::Target& target, const Combination& combination) {
+    uint32_t first = is_one ? 0 : one_count_, end = is_one ? one_count_ : tile_count_;
+    if (first == end) return 0;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, moved_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, tiles_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, entries_.id());
+    const gl::Program& program = use_program(is_one, moves, target, combination);
+    glUniform1ui(program.at("first_tile"), first);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(end - first));
+    return 1;
+}
+
+void Combiner::prepare(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older) {
+    Combination combination;
+    if (options_.variant == Variant::fsi_paper) {
+        combine(target, newer, older, combination);
+        return;
+    }
+    // One thing in the first square, two in the second.
+    combination.moved.resize(2);
+    combination.tiles.columns = 2, combination.tiles.rows = 1;
+    combination.tiles.entries.assign(2 * Tiles::kMost, 0);
+    combination.tiles.entries[0] = combination.tiles.entries[Tiles::kMost] = 1;
+    combination.tiles.entries[Tiles::kMost + 1] = 2;
+    for (bool moves : {true, false}) {
+        combination.has_own_motion = moves;
+        combine(target, newer, older, combination);
+    }
+}
+
 const gl::Program& Combiner::use_program(bool is_one, bool moves, const gl::Target& target, const Combination& combination) {
     const gl::Program& program = tiled_[is_one][moves];
     program.use();
@@ -186,17 +217,7 @@ uint64_t Combiner::combine(const gl::Target& target, const TurnBuffer& newer, co
         combined_px_ = uint64_t(target.width_px()) * target.height_px();
     } else {
         fill_tiles(target, combination, !copies);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, moved_.id());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, tiles_.id());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, entries_.id());
-        for (bool is_one : {true, false}) {
-            uint32_t first = is_one ? 0 : one_count_, end = is_one ? one_count_ : tile_count_;
-            if (first == end) continue;
-            const gl::Program& program = use_program(is_one, combination.has_own_motion, target, combination);
-            glUniform1ui(program.at("first_tile"), first);
-            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(end - first));
-            ++calls;
-        }
+        for (bool is_one : {true, false}) calls += draw_tiles(is_one, combination.has_own_motion, target, combination);
     }
     glDepthFunc(GL_GREATER);
     return calls;

@@ -4,6 +4,7 @@
 // Level-of-Detail Rendering, 2008, 3.1 (the two ramps). Different here: it runs on time, turns back on its way, and ends.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace overlook::discrete {
@@ -33,5 +34,12 @@ double eased(double phase);
 // parts and phase becomes 1 - phase, so that nothing jumps; else it ends where it goes, and only then may begin anew. It is under
 // way for fade_s at most from when it begins or turns; it never rests and begins in one call.
 Transition step(const Transition& now, uint32_t wanted, double dt_s, double fade_s, bool is_one_by_one);
+
+inline uint32_t finer(const Transition& transition) {
+    return std::min(transition.from, transition.to);
+}
+inline uint32_t coarser(const Transition& transition) {
+    return std::max(transition.from, transition.to);
+}
 
 }  // namespace overlook::discrete

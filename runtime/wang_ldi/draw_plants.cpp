@@ -28,7 +28,7 @@ discrete::FrameList listed(const discrete::ChainFacts& facts, const PlantPlaces&
 // As discrete's own of one picture, without its light.
 constexpr char kUnlitMain[] = R"(
 void main() {
-    colour = vec4(encoded(unlit_colour(items[item_of].is_plain != 0u)), 1.0);
+    colour = vec4(encoded(unlit_colour(own_item().is_plain)), 1.0);
 }
 )";
 
