@@ -60,7 +60,8 @@ NeighbourCount count_neighbours(const TileSet& set, const Tiling& tiling);
 // A tiling of the whole plane that keeps no tile. Edges between blocks of block() x block() tiles are coloured by a hash of their
 // place; what is inside follows from them. block() is 1 for a set that has a tile for every four colours (whose corners agree):
 // then at() is one look-up. Else it is the smallest with which every block's border can be filled, which is tried out once for
-// every border and all corners inside; sets of 12 tiles need 2, with borders of the planting too. A prototile with variants never stands beside itself in the same variant.
+// every border and all corners inside; sets of 12 tiles need 2, with borders of the planting too. A prototile with variants never
+// stands beside itself in the same variant.
 class RandomTiling {
   public:
     // Exit::impossible: "a set of 8 tiles permits no random access: some border of 4 x 4 tiles cannot be filled, or there are too
@@ -88,6 +89,9 @@ class RandomTiling {
     std::vector<Tile> prototiles_;
     std::vector<std::vector<uint8_t>> variants_;          // [prototile]: tiles
     std::vector<std::vector<uint32_t>> fits_south_west_;  // [south * verticals + west]: prototiles
+    // Of each border the prototiles of each of its fills, one after the other; none unless they are few.
+    std::vector<uint32_t> first_fill_;
+    std::vector<uint8_t> fills_;
 };
 
 }  // namespace overlook::wang_ldi
