@@ -59,7 +59,13 @@ Canopy canopy_of(const Planting& planting, std::span<const discrete::Chain> chai
     if (canopy.top_m <= 0) return canopy;
     // Shade of each layer, then of all layers above it.
     std::array<double, kCanopySteps> shade{};
-    double ground_m2 = double(planting.tiles.size()) * planting.tile_size_m * planting.tile_size_m;
+    double ground_m2 = double(planting.tiles.size()) * planting.tile_size_m * planting.tile_size_m, below_m2 = 0;
+    for (const auto& tile : planting.tiles)
+        for (const Planted& object : tile) {
+            double radius_m = double(planting.models[object.model].tight_radius_m) * double(object.scale);
+            below_m2 += M_PI * radius_m * radius_m;
+        }
+    if (below_m2 > 0) ground_m2 = std::min(ground_m2, below_m2);
     for (const auto& tile : planting.tiles)
         for (const Planted& object : tile)
             for (const Leaf& leaf : leaves[object.model]) {

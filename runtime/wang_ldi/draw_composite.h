@@ -23,7 +23,8 @@ class Composite {
 
     // Sends a picture to the card; what is drawn from now on. Returns how many bytes.
     uint64_t take(const Warped& picture);
-    // Room for a picture that shaders write: colours (RGBA8, alpha 0 where nothing is) and depths in metres (R32F), top row first.
+    // Room for a picture that shaders write: colours (RGBA8, alpha 0 where nothing is) and depths in metres (R32F), top row
+    // first.
     void fit(uint32_t width_px, uint32_t height_px);
     GLuint colours() const { return colours_.id(); }
     GLuint depths() const { return depths_.id(); }

@@ -139,10 +139,11 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     return {};
 }
 
-// Without models nothing is drawn as geometry.
+// Without models nothing is drawn as geometry; nor by a processor unless it was asked for.
 FrameOptions FrameDrawer::field_options() const {
     FrameOptions options = options_;
-    if (land_.plants == nullptr) options.has_geometry = false;
+    bool is_asked = options.geometry == NearGeometry::always || options.geometry_m > 0 || !is_software_;
+    if (land_.plants == nullptr || !is_asked) options.geometry = NearGeometry::none;
     return options;
 }
 
@@ -187,7 +188,8 @@ void FrameDrawer::look_ahead(Slot& slot, double dt_s) {
 }
 
 const StoredImage* FrameDrawer::image_at(uint64_t index) const {
-    return options_.shows_rings ? rings_.at(index) : store_->at(index);
+    const StoredImage* ring = options_.shows_rings ? rings_.at(index) : nullptr;
+    return ring != nullptr ? ring : store_->at(index);
 }
 
 // By the graphics card, as the frame is drawn.

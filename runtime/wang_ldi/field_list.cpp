@@ -109,7 +109,7 @@ class FieldWalk {
         item.context = images_.context_count == 2 && placement_.is_at_edge(i, j);
         bool is_upright = show(item, rect, range, above_m);  // has images or geometry, not textures alone
         if (item.shown_count == 0) return;
-        if (is_upright) shear(item, rect);
+        if (is_upright) shear(item, rect), judge(item, rect);
         ++list_.counts.tiles_listed;
         list_.items.push_back(item);
     }
@@ -142,15 +142,13 @@ class FieldWalk {
         item.low_m = range.low_m + images_.low_m, item.high_m = range.high_m + images_.high_m;
         item.first_shown = uint32_t(list_.shown.size());
         const Mix &rungs = chosen.rungs, &directions = chosen.directions;
-        bool is_upright = show_rung(item, rungs.first, first_of(rungs), directions, eye_from_middle, eye_above_m);
-        if (rungs.second != rungs.first)
-            is_upright |= show_rung(item, rungs.second, second_of(rungs), directions, eye_from_middle, eye_above_m);
+        bool is_upright = show_rung(item, rungs.first, first_of(rungs), directions);
+        if (rungs.second != rungs.first) is_upright |= show_rung(item, rungs.second, second_of(rungs), directions);
         item.shown_count = uint32_t(list_.shown.size()) - item.first_shown;
         return is_upright;
     }
 
-    bool show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions, const glm::dvec2& eye_from_middle,
-                   double eye_above_m) {
+    bool show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions) {
         const Rung& rung = field_.ladder_.rungs[index];
         if (rung.stage == Stage::bare) return false;
         if (rung.stage == Stage::geometry) {
@@ -161,11 +159,22 @@ class FieldWalk {
         if (directions.second != directions.first) add_shown(item, {index, directions.second, by_rung, second_of(directions)});
         if (rung.stage != Stage::ldi) return false;
         item.coarser_px = images_.levels[rung.level].side_px;
-        bool was_outside = item.is_outside_cell;
-        for (uint32_t direction : {directions.first, directions.second})
-            item.is_outside_cell |= !is_sampled_for(images_, rung.level, direction, eye_from_middle, eye_above_m);
-        list_.counts.outside_cell += item.is_outside_cell && !was_outside;
         return true;
+    }
+
+    // Whether images are drawn for an eye that they were not sampled for. A tile sheared onto a slope looks as it does on flat
+    // ground to an eye as high above the slope, which goes on to below the eye.
+    void judge(Item& item, const Rect& rect) {
+        glm::dvec2 from_middle = glm::dvec2(eye_m_) - (rect.low_m + rect.high_m) / 2.0;
+        for (const Shown& shown : list_.shown_of(item)) {
+            const Rung& rung = field_.ladder_.rungs[shown.rung];
+            if (rung.stage != Stage::ldi) continue;
+            for (const Half& half : list_.halves_of(item)) {
+                double above_m = eye_m_.z - half.plane.height_m - glm::dot(half.plane.slope, glm::dvec2(eye_m_) - rect.low_m);
+                item.is_outside_cell |= !is_sampled_for(images_, rung.level, shown.direction, from_middle, above_m);
+            }
+        }
+        list_.counts.outside_cell += item.is_outside_cell;
     }
 
     void add_shown(Item& item, const Shown& shown) {

@@ -15,7 +15,7 @@ constexpr std::array<SettingKind, 11> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
-                                              SettingKind{"geometry", 0, 1, 1, true, true, true},
+                                              SettingKind{"geometry", 0, 2, 2, true},
                                               SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
                                               SettingKind{"warper", 0, 2, 0, true},
                                               SettingKind{"exact", 0, 1, 0, true, true, true},
@@ -47,7 +47,7 @@ void set(FrameOptions& options, std::string_view name, double value) {
     } else if (name == "direction-fade") {
         options.direction_fade = value;
     } else if (name == "geometry") {
-        options.has_geometry = value != 0;
+        options.geometry = NearGeometry(int(value));
     } else if (name == "geometry-m") {
         options.geometry_m = value;
     } else if (name == "warper") {
@@ -65,7 +65,7 @@ void set(FrameOptions& options, std::string_view name, double value) {
 }
 
 double geometry_to_m(const ImageSet& images, const FrameOptions& options) {
-    if (options.variant == Variant::paper || !options.has_geometry) return 0;
+    if (options.variant == Variant::paper || options.geometry == NearGeometry::none) return 0;
     return options.geometry_m > 0 ? options.geometry_m : images.cell.nearest_m;
 }
 

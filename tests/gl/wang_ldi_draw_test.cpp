@@ -208,6 +208,11 @@ TEST_F(Frames, ShowRingsByColours) {
     ImageRgb8 own = picture(*plain, 0), shown = picture(*coloured, 0);
     EXPECT_FALSE(own.pixels == shown.pixels);
     EXPECT_EQ(plain->counts().warp, coloured->counts().warp);
+    // Of a budget that has room for nothing but the images, they keep their own colours.
+    ImageStreaming tight = waiting();
+    tight.settings.residency_budget_bytes = plain->counts().stream.resident_bytes + 1000;
+    auto narrow = frames(rings, tight);
+    EXPECT_TRUE(picture(*narrow, 0).pixels == own.pixels);
     int first_ring = 0;
     for (uint32_t x = 0; x < 640; ++x)
         for (uint32_t y = 300; y < 480; ++y) {

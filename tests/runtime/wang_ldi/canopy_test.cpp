@@ -40,6 +40,10 @@ TEST(Canopy, LightFallsByTheLeavesAbove) {
         EXPECT_GE(canopy.open[k].y, canopy.open[k - 1].y);
         EXPECT_LE(canopy.open[k].y, 1);
     }
+    // The same leaves in two plants that stand on 2 m2 of it.
+    for (Model& model : planting.models) model.tight_radius_m = float(std::sqrt(2.0 / 3 / M_PI));
+    EXPECT_NEAR(double(canopy_of(planting, chains, to_sun).open[0].x), sun_below(3 * 4), 1e-4);
+    for (Model& model : planting.models) model.tight_radius_m = 0;
     // A closed thing has two sides for what it hides.
     chains[0].surfaces[0].is_two_sided = chains[1].surfaces[0].is_two_sided = false;
     EXPECT_NEAR(double(canopy_of(planting, chains, to_sun).open[0].x), sun_below(1.5), 1e-4);

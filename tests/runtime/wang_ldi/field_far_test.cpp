@@ -221,5 +221,28 @@ TEST(FarField, OutsideOfTheCellIsSaid) {
     EXPECT_EQ(risen.counts.outside_cell, with_images);
 }
 
+// On one slope all tiles look as on flat ground, however high the eye stands above those below it.
+TEST(FarField, ASlopeIsNotOutsideOfTheCell) {
+    terrain::Terrain slope =
+        terrain_of(400, 400, 1, 1, [](uint32_t column, uint32_t row) { return 150 + 0.1 * column - 0.05 * row; });
+    TestField test{Ground(slope)};
+    test.images.cell.farthest_m = 60;
+    FieldOptions options = test.to_horizon();
+    options.ladder.fade_share = options.direction_fade_share = 0;
+    Field field = test.field(options);
+    glm::dvec2 at(200, -200);
+    auto outside = [&](double above_m) {
+        uint64_t far = 0, all = 0;
+        for (const Item& item : list_of(field, head_camera({at, test.ground.height_m(at) + above_m}, 90, -8)).items)
+            if (item.half_count > 0 && item.distance_m > 5 && item.distance_m < 55) ++all, far += item.is_outside_cell;
+        return std::pair(far, all);
+    };
+    auto [none, tiles] = outside(1.7);
+    EXPECT_EQ(none, 0u);
+    EXPECT_GT(tiles, 100u);
+    auto [risen, as_many] = outside(4);
+    EXPECT_EQ(risen, as_many);
+}
+
 }  // namespace
 }  // namespace overlook::wang_ldi
