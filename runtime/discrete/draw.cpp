@@ -159,6 +159,7 @@ Result<void> Drawing::make_looks() {
                        float(surface.colour[3]) / 255};
         if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
         look.is_picture = looks_.size() >= chain_->surfaces.size() - chain_->picture_count;
+        look.is_two_sided = chain_->surfaces[looks_.size()].is_two_sided;
         looks_.push_back(std::move(look));
     }
     return {};
@@ -243,6 +244,7 @@ void Drawing::draw_calls(const gl::Program& program, const ListBuffers& buffers,
         glUniform4fv(program.at("base_colour"), 1, glm::value_ptr(look.colour));
         glUniform1f(program.at("alpha_cutoff"), look.alpha_cutoff);
         glUniform1i(program.at("is_card"), look.is_picture ? 1 : 0);
+        glUniform1i(program.at("is_two_sided"), look.is_two_sided ? 1 : 0);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                     reinterpret_cast<const void*>(sizeof(Command) * size_t(call.first_command)),
                                     GLsizei(call.command_count), 0);

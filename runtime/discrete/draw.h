@@ -64,6 +64,7 @@ class Drawing {
         glm::vec4 colour{1};      // linear
         float alpha_cutoff = 0;   // what is more transparent is not drawn
         bool is_picture = false;  // of billboards
+        bool is_two_sided = false;
     };
     Result<void> upload_levels();
     Result<void> make_looks();

@@ -128,6 +128,7 @@ uniform vec4 base_colour;
 uniform float alpha_cutoff;
 uniform bool has_normals;
 uniform bool is_card;
+uniform bool is_two_sided;
 layout(location = 0) out vec4 colour;
 
 // SHADING_ROUNDS: so many lights more, all round, each with a highlight: a shader that is dear.

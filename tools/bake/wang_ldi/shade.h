@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/wang_ldi/baked_light.h"
 #include "tools/bake/wang_ldi/sample.h"
 
 namespace overlook::wang_ldi {
@@ -17,9 +18,9 @@ namespace overlook::wang_ldi {
 struct Light {
     glm::vec3 to_sun{0.45f, 0.35f, 0.82f};   // any length but 0; z > 0
     double sun_radius_deg = 1.5;             // how far the sun reaches to each side of its middle
-    glm::vec3 sun{0.85f, 0.8f, 0.7f};        // what a white surface that faces it sends back of it, linear
-    glm::vec3 sky{0.3f, 0.36f, 0.45f};       // and of the whole sky
-    glm::vec3 ground{0.03f, 0.035f, 0.02f};  // and of the ground, which lies below the horizon everywhere
+    glm::vec3 sun = BakedLight().sun;        // what a white surface that faces it sends back of it, linear
+    glm::vec3 sky = BakedLight().sky;        // and of the whole sky
+    glm::vec3 ground = BakedLight().ground;  // and of the ground, which lies below the horizon everywhere
     uint32_t sun_rays = 8, sky_rays = 32;    // of each sample: multiples of 1 .. 256
 };
 
