@@ -250,7 +250,8 @@ TEST(BakeWangImages, ShowsItsTilesAsPictures) {
     expect_done(run(words_of(folder, "a.ovl", {"--border-images"})));
     Ran ran = run({"baked", "info", folder / "a.ovl", "--sheet", folder / "sheet", "--json"});
     expect_done(ran);
-    for (const char* name : {"tiles-above.png", "tiles-aside.png", "directions.png", "levels.png", "planting.png"})
+    for (const char* name : {"tiles-above.png", "tiles-aside.png", "directions.png", "levels.png", "planting.png",
+                             "textures-above.png", "textures-aside.png"})
         EXPECT_GE(fs::file_size(folder / ("sheet/" + std::string(name))), 1000u) << name;
     nlohmann::json images = nlohmann::json::parse(ran.out)["images"];
     EXPECT_EQ(images["contexts"], 2);
@@ -285,7 +286,7 @@ TEST(BakeWangImages, RefusesTilesThatAreTooNear) {
     ScratchFolder folder;
     write_bushes(folder);
     expect_refusal(run(words_of(folder, "a.ovl", {"--nearest-m", "1"})), 2, "bake-wang-ldi",
-                   {"within a tile of 3 m", "--nearest-m 2.1"});
+                   {"within a tile of 3 m", "--nearest-m 2.25"});
     expect_refusal(run(words_of(folder, "a.ovl", {"--fov-y-deg", "1", "--nearest-m", "3"})), 2, "bake-wang-ldi",
                    {"4,096 are possible"});
     // Nearer than the default of 2.5 tiles, in parts too; nothing is left behind.

@@ -74,6 +74,10 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--textures", args.textures,
                    "Texels a side of each tile's directional textures, for beyond the farthest images: 1, 2, 4 .. 256, or none")
         ->capture_default_str();
+    app.add_option("--texture-error", args.texture_error,
+                   "Rays stop when the colours of a texture's texels are so certain: their standard error over their mean")
+        ->check(command::number_in(1e-3, 1))
+        ->capture_default_str();
     app.add_flag("--border-images", args.has_border_images, "Besides, images of each tile alone, for where the planting ends");
     app.add_option("--judge", args.judged_views, "Warp each image for so many views and say how it differs from what rays see")
         ->check(CLI::Range(0u, 10000u));
@@ -174,7 +178,7 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     bake.levels.set.cell = {args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m, focal_px, args.error_px};
     bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
     bake.levels.set.level_fade = float(args.level_fade), bake.levels.set.direction_fade = float(args.direction_fade);
-    bake.sampling.unseen_goal = args.unseen;
+    bake.sampling.unseen_goal = args.unseen, bake.textures.error_goal = args.texture_error;
     bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views;
     bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
     double heading = args.sun_heading_deg * M_PI / 180, elevation = args.sun_elevation_deg * M_PI / 180;
@@ -209,6 +213,7 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     if (args.constants != "paper") add("fades", fmt::format("levels {}, directions {}", args.level_fade, args.direction_fade));
     add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
     add("textures", args.textures);
+    if (args.textures != "none") add("texture-error", fmt::format("{}", args.texture_error));
     if (args.light == "baked")
         add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
                                args.sun_elevation_deg, args.sun_rays, args.sky_rays));

@@ -17,6 +17,7 @@ struct ImageArgs {
     double level_fade = 0.05, direction_fade = 0.1;
     uint32_t neighbourhoods = 1, judged_views = 0;
     std::string textures = "32";  // texels a side, or "none"
+    double texture_error = 0.04;
     std::string leaves = "trimmed", instructions = "best";
     std::string light = "baked";
     double sun_heading_deg = 140, sun_elevation_deg = 50, leaf_transmission = 0.35;

@@ -66,8 +66,8 @@ ordered_json textures_json(const wang_ldi::ImageReport& report) {
         rays += row.rays, hits += row.hits, unseen += row.unseen_share, error += row.standard_error;
         unseen_most = std::max(unseen_most, row.unseen_share), error_most = std::max(error_most, row.standard_error);
         auto of = double(row.judgement.pixels);
-        pixels += row.judgement.pixels, coverage += of * row.judgement.coverage;
-        drawn += of * row.judgement.drawn_coverage, off += of * row.judgement.mean_error;
+        pixels += row.judgement.pixels, off += of * row.judgement.mean_error;
+        coverage += row.judgement.coverage, drawn += row.judgement.drawn_coverage;
     }
     auto count = double(std::max<size_t>(1, report.textures.size()));
     ordered_json json{{"count", report.textures.size()},
@@ -80,8 +80,8 @@ ordered_json textures_json(const wang_ldi::ImageReport& report) {
                       {"standard_error_most", error_most}};
     if (pixels > 0)
         json["judged"] = {{"pixels", pixels},
-                          {"coverage", coverage / double(pixels)},
-                          {"drawn_coverage", drawn / double(pixels)},
+                          {"coverage", coverage / count},
+                          {"drawn_coverage", drawn / count},
                           {"mean_luma_error", off / double(pixels)}};
     return json;
 }
