@@ -45,19 +45,24 @@ std::vector<Sum> sums_of(const ImageSet& set, const Ldi& ldi, uint32_t side) {
     return sums;
 }
 
-DirectionalTexture texture_of(const TextureSet& set, const std::vector<Sum>& sums) {
+// pixel_m: of the image. A box is as opaque as its samples cover its face.
+DirectionalTexture texture_of(const TextureSet& set, const std::vector<Sum>& sums, double pixel_m) {
     DirectionalTexture texture;
-    double step_m = (set.high_m - set.low_m) / 255;
-    for (const Sum& sum : sums) {
+    double step_m = (set.high_m - set.low_m) / 255, texel_m = set.tile_m / set.side_px;
+    for (size_t t = 0, end = 0, side = set.side_px; t < sums.size(); ++t) {
+        const Sum& sum = sums[t];
+        if (t == 0) end = side * side;
+        if (t == end) side /= 2, end += side * side, texel_m *= 2;
         std::array<uint8_t, 4>& colour = texture.colours.emplace_back();
         std::array<uint8_t, 2>& heights = texture.heights.emplace_back();
         if (sum.samples == 0) continue;
         auto count = double(sum.samples);
         for (size_t c = 0; c < 3; ++c) colour[c] = uint8_t(std::lround(255 * srgb_from_linear(sum.light[c] / count)));
-        colour[3] = 255;
         double mean_m = sum.height_m / count, variance = std::max(0.0, sum.height_squared / count - mean_m * mean_m);
         heights[0] = uint8_t(std::clamp(std::round(mean_m / step_m), 0.0, 255.0));
         heights[1] = uint8_t(std::clamp(std::round(std::sqrt(3 * variance) / step_m), 1.0, 255.0));
+        double opacity = count * pixel_m * pixel_m / (texel_m * 2 * heights[1] * step_m);
+        colour[3] = uint8_t(std::clamp(std::round(255 * opacity), 1.0, 255.0));
     }
     return texture;
 }
@@ -79,7 +84,7 @@ TextureSet textures_of_images(const ImageSet& set, const ImageAt& image_at) {
                 const Ldi* ldi = image_at(index_of(set, {context, tile, coarsest, direction}));
                 std::vector<Sum> sums(texture_texels(textures.side_px));
                 if (ldi != nullptr) sums = sums_of(set, *ldi, textures.side_px);
-                textures.textures.push_back(texture_of(textures, sums));
+                textures.textures.push_back(texture_of(textures, sums, set.tile_m / set.levels.back().side_px));
             }
     return textures;
 }
