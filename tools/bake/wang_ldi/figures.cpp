@@ -23,7 +23,7 @@ void measure_tilings(const TileSet& set, const Recipe& recipe, const UsedTiling&
 
 // Fewer where many small objects stand on each, so that what is looked at stays within memory.
 uint32_t planted_side(const Planting& planting, double radius_m) {
-    constexpr double kMostSquares = 1 << 24;
+    constexpr double kMostSquares = 1 << 20;
     double radii = planting.tile_size_m / radius_m;
     return uint32_t(std::clamp(2 + std::floor(std::sqrt(kMostSquares) / radii), 3.0, double(kPlantedSide)));
 }
