@@ -79,13 +79,25 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
         ->check(command::number_in(1e-3, 1))
         ->capture_default_str();
     app.add_flag("--border-images", args.has_border_images, "Besides, images of each tile alone, for where the planting ends");
-    app.add_option("--judge", args.judged_views, "Warp each image for so many views and say how it differs from what rays see")
-        ->check(CLI::Range(0u, 10000u));
+    app.add_option(
+           "--judge", args.judged_views,
+           "Warp images for so many random views, spread evenly over levels, directions and tiles, and say how they differ "
+           "from what rays see: holes, E (LDR-FLIP)")
+        ->check(CLI::Range(0u, 1000000u));
+    app.add_option("--trial", args.trial_tiles,
+                   "Bake the images of so many tiles only, and no file: to see what all take and how good they are")
+        ->check(CLI::Range(1u, 65536u));
 }
 
 void add_light_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--light", args.light, "baked: sun and sky in the colours. later: colours as they are, and normals")
         ->check(CLI::IsMember({"baked", "later"}))
+        ->capture_default_str();
+    app.add_option(
+           "--gloss", args.gloss,
+           "by-direction: glossy surfaces (glTF's factors, or roughness and metallic in the recipe) as the middle of each "
+           "image's eyes sees them. none: as if they sent light back evenly")
+        ->check(CLI::IsMember({"by-direction", "none"}))
         ->capture_default_str();
     app.add_option("--sun-heading-deg", args.sun_heading_deg, "Where the sun stands, clockwise from north")
         ->check(command::number_in(-360, 360))
@@ -125,6 +137,7 @@ Result<wang_ldi::Models> read_models(const GroundDone& ground, const ImageArgs& 
     wang_ldi::Models models;
     for (size_t m = 0; m < ground.recipe.files.size(); ++m) {
         const std::string& path = ground.recipe.files[m];
+        options.roughness = ground.recipe.roughness[m], options.metallic = ground.recipe.metallic[m];
         auto file = mesh::open_mesh(path);
         if (!file) return tl::unexpected(file.error());
         if (auto added = wang_ldi::add_model(file->mesh, options, models, &trimmed); !added)
@@ -179,15 +192,19 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
     bake.levels.set.level_fade = float(args.level_fade), bake.levels.set.direction_fade = float(args.direction_fade);
     bake.sampling.unseen_goal = args.unseen, bake.textures.error_goal = args.texture_error;
-    bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views;
+    bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views, bake.trial_tiles = args.trial_tiles;
     bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
+    bake.has_gloss = args.gloss == "by-direction";
     double heading = args.sun_heading_deg * M_PI / 180, elevation = args.sun_elevation_deg * M_PI / 180;
     bake.light.to_sun =
         glm::vec3(std::sin(heading) * std::cos(elevation), std::cos(heading) * std::cos(elevation), std::sin(elevation));
     bake.light.sun_rays = args.sun_rays, bake.light.sky_rays = args.sky_rays;
     if (args.instructions == "everywhere") bake.instructions = rays::Instructions::everywhere;
     bake.memory_bytes = args.ray_memory_bytes, bake.version = command::version();
-    bake.seed = seed, bake.parts_folder = args.parts.empty() ? output + ".parts" : args.parts;
+    bake.seed = seed, bake.parts_folder = args.parts;
+    if (args.parts.empty() && args.trial_tiles == 0) bake.parts_folder = output + ".parts";
+    if (args.trial_tiles > 0 && !args.part.empty())
+        return bad_command("--trial {} and --part {}: give one of them", args.trial_tiles, args.part);
     if (args.constants == "paper") take_paper_constants(bake);
     return bake;
 }
@@ -218,6 +235,7 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
         add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
                                args.sun_elevation_deg, args.sun_rays, args.sky_rays));
     add("leaf-transmission", fmt::format("{}", args.leaf_transmission));
+    if (args.gloss != ImageArgs().gloss) add("gloss", args.gloss);
     auto instructions = args.instructions == "everywhere" ? rays::Instructions::everywhere : rays::Instructions::best;
     add("instructions", std::string(rays::name_of(instructions)));
     if (args.leaves != ImageArgs().leaves) add("leaves", args.leaves);

@@ -15,11 +15,11 @@ struct ImageArgs {
     double eye_low_m = 1.5, eye_high_m = 1.9, nearest_m = 0, farthest_m = 0;
     double level_ratio = 1.5, direction_px = 170, unseen = 0.02;
     double level_fade = 0.05, direction_fade = 0.1;
-    uint32_t neighbourhoods = 1, judged_views = 0;
+    uint32_t neighbourhoods = 1, judged_views = 0, trial_tiles = 0;
     std::string textures = "32";  // texels a side, or "none"
     double texture_error = 0.04;
     std::string leaves = "trimmed", instructions = "best";
-    std::string light = "baked";
+    std::string light = "baked", gloss = "by-direction";
     double sun_heading_deg = 140, sun_elevation_deg = 50, leaf_transmission = 0.35;
     uint32_t sun_rays = 8, sky_rays = 32;
     bool has_border_images = false;

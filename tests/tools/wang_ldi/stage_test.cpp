@@ -120,7 +120,7 @@ TEST(Layouts, BothGiveTheSameColours) {
         ASSERT_TRUE(stage) << stage.error().message;
         stages[way].push_back(std::move(*stage));
         all[way] = sampled(models, stages[way], wedge_of(set, 1, 1), {});
-        colours[way] = lit_samples(models, stages[way], all[way].samples, light, 7);
+        colours[way] = lit_samples(models, stages[way], all[way].samples, glm::vec3(0), light, 7);
     }
     std::map<std::pair<uint32_t, uint32_t>, glm::vec3> of_first;
     for (size_t s = 0; s < all[0].samples.size(); ++s)
