@@ -14,7 +14,7 @@ struct ModelOptions {
     float leaf_transmission = 0.35f;  // of two-sided surfaces, what they let through; 0..1
     bool trims_leaves = true;         // by trim_to_masks
     // Of all surfaces, in place of their own.
-    std::optional<float> roughness, metallic;
+    std::optional<float> roughness{}, metallic{};
 };
 
 // Adds a mesh to the models: its triangles, normals (where the file has them), colours and textures; alpha-masked texels are
