@@ -92,6 +92,8 @@ Fault fault_of(const PlantedTiles& ground) {
     bool has_names = std::all_of(ground.planting.models.begin(), ground.planting.models.end(),
                                  [](const Model& model) { return is_name(model.name); });
     if (!has_names || ground.planting.models.size() > kMostModels) return {6, "too many models, or one of an unprintable name"};
+    if (uint64_t bytes = byte_count_of_planting(ground.planting); bytes > kPlantingBytesMax)
+        return {6, fmt::format("WPLT is of {} bytes", bytes)};
     if (Fault fault = fault_of_models(ground.planting)) return fault;
     return fault_of_objects(ground.set, ground.planting);
 }
@@ -170,6 +172,13 @@ std::vector<std::byte> bytes_of_planting(const Planting& planting) {
     return std::move(sink.bytes);
 }
 
+uint64_t byte_count_of_planting(const Planting& planting) {
+    uint64_t bytes = 16;
+    for (const Model& model : planting.models) bytes += 12 + model.name.size();
+    for (const auto& tile : planting.tiles) bytes += 4 + tile.size() * kPlantedBytes;
+    return bytes;
+}
+
 Fault planting_of_bytes(std::span<const std::byte> bytes, Planting& planting) {
     Scan scan(bytes);
     planting.tile_size_m = std::bit_cast<double>(scan.take<uint64_t>());
@@ -181,6 +190,16 @@ Fault planting_of_bytes(std::span<const std::byte> bytes, Planting& planting) {
         if (Fault fault = take_tile(scan, planting.tiles.emplace_back(), t)) return fault;
     if (scan.rest() > 0) return {6, fmt::format("there are {} bytes after its tiles", scan.rest())};
     return {};
+}
+
+Result<void> check_size(const Planting& planting) {
+    uint64_t bytes = byte_count_of_planting(planting), objects = 0;
+    for (const auto& tile : planting.tiles) objects += tile.size();
+    if (bytes <= kPlantingBytesMax) return {};
+    return impossible(
+        "{} objects of {} models on {} tiles take {} bytes of a file, {} are possible; ask for smaller tiles, fewer of them or "
+        "a lower density",
+        objects, planting.models.size(), planting.tiles.size(), bytes, kPlantingBytesMax);
 }
 
 Result<void> write(container::Writer& writer, const PlantedTiles& ground) {

@@ -15,6 +15,10 @@ struct PlantedTiles {
     Planting planting;
 };
 
+// Whether a planting is no larger than a file holds (rule W6: 2^28 bytes). Exit::impossible: "12000000 objects of 3 models on 12
+// tiles take 288000112 bytes of a file, ...".
+Result<void> check_size(const Planting& planting);
+
 // Adds the sections of a set and its planting (WTIL, WPLT) to a baked file. Same ground, same bytes. Exit::our_bug if it breaks a
 // rule of its own: "ground to write: W8: ...".
 Result<void> write(container::Writer& writer, const PlantedTiles& ground);

@@ -40,6 +40,7 @@ std::vector<std::byte> bytes_of_tiles(const TileSet& set);
 // Rules W2; bytes may be hostile, no more memory is taken than they can hold.
 Fault tiles_of_bytes(std::span<const std::byte> bytes, TileSet& set);
 std::vector<std::byte> bytes_of_planting(const Planting& planting);
+uint64_t byte_count_of_planting(const Planting& planting);  // how many they are
 // Rule W6.
 Fault planting_of_bytes(std::span<const std::byte> bytes, Planting& planting);
 

@@ -51,8 +51,11 @@ struct ImageSet {
     uint32_t context_count = 1;  // 1: sampled among neighbours; 2: besides, alone, for the border of what is planted
     bool has_normals = false;    // colours are unlit, to be lit by these; else they are lit by sun and sky
     bool has_splats = false;     // each sample says how wide it is drawn
-    glm::dvec3 to_sun{0};        // of length 1, of lit colours; else 0
-    std::vector<Level> levels;   // finest first
+    // For how far beyond its own distances and headings each image was sampled, where it gives way to others: shares of the
+    // distance where its level begins or ends, and of the angle between two directions; 0..0.5.
+    float level_fade = 0, direction_fade = 0;
+    glm::dvec3 to_sun{0};       // of length 1, of lit colours; else 0
+    std::vector<Level> levels;  // finest first
 
     uint64_t ldi_count() const { return uint64_t(context_count) * tile_count * levels.size() * direction_count; }
 };
@@ -70,6 +73,15 @@ Which which_of(const ImageSet& set, uint64_t index);
 uint32_t direction_for(const ImageSet& set, const glm::dvec2& from_middle_m);
 // The level for a tile whose middle is so far away on the ground; the finest for any that is nearer.
 uint32_t level_for(const ImageSet& set, double distance_m);
+
+// The eyes that an image was sampled for, on the ground.
+struct SampledFor {
+    double nearest_m = 0, farthest_m = 0;        // from the tile's middle
+    double heading_rad = 0, half_width_rad = 0;  // seen from there, clockwise from north, and so far to both sides
+};
+SampledFor sampled_for(const ImageSet& set, uint32_t level, uint32_t direction);
+// Whether an eye at such a place from the tile's middle, so high above the ground, is one of them, but for rounding (1e-6).
+bool is_sampled_for(const ImageSet& set, uint32_t level, uint32_t direction, const glm::dvec2& from_middle_m, double above_m);
 
 // One image: an orthographic camera looks straight down on the tile. Pixel (column, row) is the square of tile_m / side_px from
 // (column, row) of them on, row 0 in the south. Its samples are [first[p], first[p + 1]) with p = row * side_px + column, from

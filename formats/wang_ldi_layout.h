@@ -20,7 +20,7 @@ constexpr container::Tag kImagesTag = container::tag("WLDS");
 namespace head_at {
 constexpr size_t tiles = 0, levels = 4, directions = 8, contexts = 12, flags = 16, reserved = 20, tile_m = 24, low_m = 32,
                  high_m = 40, eye_low_m = 48, eye_high_m = 56, nearest_m = 64, farthest_m = 72, focal_px = 80, error_px = 88,
-                 to_sun = 96, reserved_end = 120, bytes = 128;
+                 to_sun = 96, level_fade = 120, direction_fade = 124, bytes = 128;
 }
 constexpr uint32_t kHasNormals = 1, kHasSplats = 2;
 

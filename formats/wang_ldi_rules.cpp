@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,7 +12,7 @@ constexpr std::array<std::string_view, 15> kRules{
     "WLDI is 128 bytes, 16 for each level and 40 for each image, and no more.",
     "There are 1 to 65,536 tiles, 1 to 32 levels, 1 to 64 directions and 1 or 2 contexts, 2^20 images at most.",
     "The flags are known ones, reserved numbers are 0.",
-    "The tile's size and heights, the cell and the sun's direction are finite and in their ranges.",
+    "The tile's size and heights, the cell, the fades and the sun's direction are finite and in their ranges.",
     "Levels have 1 to 4,096 pixels a side, fewer from level to level, ascending nearest distances, steps that reach from the "
     "lowest height to the highest, and splats of at most 64 pixels.",
     "WLDS is its images, one after the other, the last ending with it.",
@@ -60,6 +61,8 @@ ImageFault fault_of_places(const ImageSet& set) {
     if (!is_cell)
         return {5, fmt::format("a cell of eyes {} to {} m up and {} to {} m away, a focal length of {} px, an error of {} px",
                                cell.eye_low_m, cell.eye_high_m, cell.nearest_m, cell.farthest_m, cell.focal_px, cell.error_px)};
+    if (!is_between(double(set.level_fade), 0, 0.5) || !is_between(double(set.direction_fade), 0, 0.5))
+        return {5, fmt::format("fades of {} and {}", set.level_fade, set.direction_fade)};
     double length = glm::length(set.to_sun);
     if (length == 0 || std::abs(length - 1) < 1e-6) return {};
     return {5, fmt::format("a direction to the sun of ({}, {}, {})", set.to_sun.x, set.to_sun.y, set.to_sun.z)};
@@ -112,6 +115,23 @@ Which which_of(const ImageSet& set, uint64_t index) {
     which.level = uint32_t(index % set.levels.size()), index /= set.levels.size();
     which.tile = uint32_t(index % set.tile_count), which.context = uint32_t(index / set.tile_count);
     return which;
+}
+
+SampledFor sampled_for(const ImageSet& set, uint32_t level, uint32_t direction) {
+    double step_rad = 2 * M_PI / set.direction_count, fade = double(set.level_fade);
+    double begins_m = double(set.levels[level].nearest_m);
+    bool is_last = level + 1 == set.levels.size();
+    double ends_m = is_last ? std::max(set.cell.farthest_m, begins_m) : double(set.levels[level + 1].nearest_m);
+    return {begins_m * (1 - fade), ends_m * (1 + fade), direction * step_rad, (0.5 + double(set.direction_fade)) * step_rad};
+}
+
+bool is_sampled_for(const ImageSet& set, uint32_t level, uint32_t direction, const glm::dvec2& from_middle_m, double above_m) {
+    constexpr double kRounding = 1e-6;
+    SampledFor eyes = sampled_for(set, level, direction);
+    double distance_m = glm::length(from_middle_m), heading_rad = std::atan2(from_middle_m.x, from_middle_m.y);
+    double off_rad = std::abs(std::remainder(heading_rad - eyes.heading_rad, 2 * M_PI));
+    return above_m >= set.cell.eye_low_m && above_m <= set.cell.eye_high_m && distance_m >= eyes.nearest_m * (1 - kRounding) &&
+           distance_m <= eyes.farthest_m * (1 + kRounding) && off_rad <= eyes.half_width_rad + kRounding;
 }
 
 uint32_t direction_for(const ImageSet& set, const glm::dvec2& from_middle_m) {

@@ -38,6 +38,7 @@ std::vector<std::byte> bytes_of_head(const ImageSet& set) {
     store_f64(bytes, head_at::farthest_m, set.cell.farthest_m), store_f64(bytes, head_at::focal_px, set.cell.focal_px);
     store_f64(bytes, head_at::error_px, set.cell.error_px);
     for (int axis = 0; axis < 3; ++axis) store_f64(bytes, head_at::to_sun + 8 * size_t(axis), set.to_sun[axis]);
+    store_f32(bytes, head_at::level_fade, set.level_fade), store_f32(bytes, head_at::direction_fade, set.direction_fade);
     for (size_t k = 0; k < set.levels.size(); ++k) {
         size_t at = head_at::bytes + level_at::entry_bytes * k;
         const Level& level = set.levels[k];

@@ -13,8 +13,9 @@ constexpr std::array<std::string_view, 10> kRules{
     "Densities of corners are 0 to 1.",
     "Every edge's colour joins corner colours that are there.",
     "A tile's edges have colours that are there, and they agree about its corners.",
-    "WPLT decodes to exactly the models and the tiles stated, as many as the set has, with printable names of at most 4,096 "
-    "bytes.",
+    "WPLT is of 2^28 bytes at most and decodes to exactly the models and the tiles stated, as many as the set has, with "
+    "printable "
+    "names of at most 4,096 bytes.",
     "The tile's size is 1e-6 to 1e6 metres, and of each model 0 < tight radius <= packing radius <= the tile's size.",
     "An object is of a model that is there, has its middle in its tile, a turn of 0 to 2 pi, a scale of 1e-6 to 1e6 and a known "
     "owner.",

@@ -113,6 +113,7 @@ ImageFault textures_of_bytes(std::span<const std::byte> bytes, const ImageSet& i
         return {2, fmt::format("WLDT has {} bytes, {} textures of {} texels a side need {}", bytes.size(), set.texture_count(),
                                set.side_px, texture_bytes_of(set))};
     if (ImageFault fault = fault_of_agreement(set, images)) return fault;
+    set.direction_fade = images.direction_fade;
     size_t of_one = size_t(bytes_of_one_texture(set.side_px, set.has_normals));
     set.textures.reserve(size_t(set.texture_count()));
     for (uint64_t i = 0; i < set.texture_count(); ++i) {

@@ -32,12 +32,13 @@ struct DirectionalTexture {
     // nothing is seen has opacity 0, and else what the next coarser one has.
     std::vector<std::array<uint8_t, 4>> colours;
     // Mean height above low_m of what is seen, and half the height of the box: the square root of 3 times the standard deviation
-    // (an even spread from bottom to top has the same). In steps of (high_m - low_m) / 255.
+    // (an even spread from bottom to top has the same), where few hits tell it after the coarser texel's. In steps of (high_m -
+    // low_m) / 255.
     std::vector<std::array<uint8_t, 2>> heights;
     // Mean normal of what is seen, times 127; the shorter, the more normals differ. None unless the set has them.
     std::vector<std::array<int8_t, 3>> normals;
     float unseen_share = 0;    // of rays' hits, those in a texel that none hit before, as estimated when rays stopped
-    float standard_error = 0;  // of a finest texel's colour (root mean square over hits; luma, linear)
+    float standard_error = 0;  // of a finest texel's colour, as eyes differ (root mean square over hits; luma, linear)
 
     bool operator==(const DirectionalTexture&) const = default;
 };
@@ -50,6 +51,7 @@ struct TextureSet {
     double eye_low_m = 0, eye_high_m = 0;  // above the tile's ground
     uint32_t tile_count = 0, direction_count = 0, context_count = 1;
     bool has_normals = false;                  // colours are unlit
+    float direction_fade = 0;                  // as of the images, which state it
     std::vector<DirectionalTexture> textures;  // [context_count, tile_count, direction_count]
 
     uint64_t texture_count() const { return uint64_t(context_count) * tile_count * direction_count; }

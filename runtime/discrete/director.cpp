@@ -4,22 +4,15 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace overlook::discrete {
 namespace {
 
 constexpr uint8_t kMostGrainDoublings = 20;
-constexpr double kUnevenShare = 0.01;  // of a frame's triangles, that even frames may draw more than odd ones or fewer
-constexpr double kCutShare = 0.25;     // of a thing's distance: an eye that went farther in a frame was put elsewhere
-constexpr double kMostTwice = 0.25;    // of what is divided, drawn on both sides
-
-uint32_t finer(const Transition& transition) {
-    return std::min(transition.from, transition.to);
-}
-uint32_t coarser(const Transition& transition) {
-    return std::max(transition.from, transition.to);
-}
+constexpr double kCutShare = 0.25;    // of a thing's distance: an eye that went farther in a frame was put elsewhere
+constexpr uint64_t kLeastCut = 1024;  // triangles of a level from which on only those in the picture are drawn
 
 }  // namespace
 
@@ -51,12 +44,7 @@ void Director::change(const FrameOptions& options) {
     options_ = options;
     if (fades(options.variant)) return;
     for (State& state : states_) state.transition = {state.transition.to, state.transition.to, 0};
-    divided_.clear();
-}
-
-int64_t Director::difference(uint32_t instance, const Transition& transition) const {
-    if (auto found = divided_.find(instance); found != divided_.end()) return found->second.difference;
-    return int64_t(facts_.levels[finer(transition)].triangle_count) - int64_t(facts_.levels[coarser(transition)].triangle_count);
+    partly_.clear();
 }
 
 // The eye's way since the frame before as the thing sees it, which may have moved itself.
@@ -66,64 +54,10 @@ glm::dvec3 Director::way_past(uint32_t instance) const {
 }
 
 // From so far apart it is another picture of the thing, and the level in use may be far too coarse.
-bool Director::is_cut(uint32_t instance) const {
+bool Director::has_jumped(uint32_t instance) const {
     const Placement& placement = placements_[instance];
     double distance_m = glm::length(placement.at(facts_.middle_m) - eye_m_);
     return glm::length(way_past(instance)) > kCutShare * std::max(distance_m, facts_.radius_m * placement.scale);
-}
-
-// A plane that shares a thing out, if one does it well.
-bool Director::divide(uint32_t instance) {
-    const Placement& placement = placements_[instance];
-    const Transition& transition = states_[instance].transition;
-    const LevelFacts &fine = facts_.levels[finer(transition)], &coarse = facts_.levels[coarser(transition)];
-    std::optional<Split> split = split_of(fine.bunches, coarse.bunches, placement, facts_.middle_m, facts_.radius_m, eye_m_,
-                                          way_past(instance));
-    if (!split) return false;
-    glm::dvec3 normal = turn_to_eye(*split, placement, eye_m_);
-    std::vector<TriangleRun> runs;
-    auto count = [&](const LevelFacts& level, bool is_along) {
-        return int64_t(append_side(level.bunches, placement, eye_m_, normal, is_along, runs));
-    };
-    int64_t even = count(fine, true) + count(coarse, false), odd = count(fine, false) + count(coarse, true);
-    auto all = int64_t(fine.triangle_count + coarse.triangle_count);
-    bool pays = std::abs(even - odd) < all / 4 && double(even + odd - all) <= kMostTwice * double(all);
-    if (pays) divided_[instance] = {*split, even - odd};
-    return pays;
-}
-
-// It draws more where less is drawn.
-void Director::take_side(uint32_t instance) {
-    State& state = states_[instance];
-    int64_t more = difference(instance, state.transition);
-    state.is_odd = more < 0 ? balance_ < 0 : balance_ > 0;
-    balance_ += (state.is_odd ? -1 : 1) * more;
-}
-
-// As printed, all instances change their level with the frame; else those that begin go where fewer triangles are, and what they
-// leave uneven is divided, the last first.
-void Director::begin(const Selector& selector) {
-    bool is_own = options_.variant == Variant::fsi, splits = is_own && options_.remedies.splits_parities;
-    for (uint32_t instance : begun_) {
-        states_[instance].is_odd = false;
-        if (splits) take_side(instance);
-    }
-    bool divides = splits && options_.remedies.splits_things;
-    for (size_t i = begun_.size(); i-- > 0 && divides;) {
-        if (double(std::abs(balance_)) <= kUnevenShare * double(last_triangle_count_)) break;
-        uint32_t instance = begun_[i];
-        const State& state = states_[instance];
-        int64_t own = (state.is_odd ? -1 : 1) * difference(instance, state.transition);
-        if (std::abs(balance_ - own) >= std::abs(balance_) || !divide(instance)) continue;
-        balance_ -= own;
-        take_side(instance);
-    }
-    for (uint32_t instance : begun_) {
-        State& state = states_[instance];
-        // Nothing is seen of a change before the new level is drawn; and what begins together ends together, shared out evenly.
-        if (is_own) state.transition.phase = 0;
-        suit_grain(state, placements_[instance], selector);
-    }
 }
 
 void Director::suit_grain(State& state, const Placement& placement, const Selector& selector) const {
@@ -147,16 +81,16 @@ bool Director::advance(uint32_t instance, State& state, const Placement& placeme
         return false;
     }
     bool knows_cuts = options_.variant == Variant::fsi && options_.remedies.knows_cuts;
-    bool has_cut = knows_cuts && is_cut(instance);
+    bool has_cut = knows_cuts && has_jumped(instance);
     uint32_t wanted = has_cut ? selector.wanted(placement) : selector.wanted(placement, before.to);
     if (!fades(options_.variant) || !is_in_view || has_cut || (knows_cuts && !was_in_view)) {
         state.transition = {wanted, wanted, 0};
-        divided_.erase(instance);
+        partly_.erase(instance);
         return wanted != before.to;
     }
     state.transition = step(before, wanted, dt_s, options_.fade_s, options_.is_one_by_one);
     const Transition& after = state.transition;
-    if (after.is_resting()) divided_.erase(instance);
+    if (after.is_resting()) partly_.erase(instance);
     if (before.is_resting() && !after.is_resting()) begun_.push_back(instance);
     bool has_turned = !before.is_resting() && after.to == before.from;
     return (before.is_resting() && after.to != before.to) || has_turned;
@@ -167,37 +101,27 @@ uint32_t Director::drawn_level(const State& state) const {
     return is_finer ? finer(state.transition) : coarser(state.transition);
 }
 
-// Each level on its side; which of the two is the even frames', is_odd says.
-void Director::list_divided(uint32_t instance, const State& state, Divided& divided, double grain) {
-    const Transition& transition = state.transition;
-    const Placement& placement = placements_[instance];
-    glm::dvec3 normal = turn_to_eye(divided.split, placement, eye_m_);
-    uint32_t fine = finer(transition), along = drawn_level(state);
-    auto add = [&](uint32_t level, bool is_along) {
-        Item item{instance, level, Show::visible, visible_share(transition, level), fine, grain};
-        item.side = is_along ? Item::Side::along : Item::Side::against, item.normal = normal;
+bool Director::is_partly_seen(uint32_t instance, uint32_t level) const {
+    const LevelFacts& facts = facts_.levels[level];
+    return states_[instance].is_cut && facts.triangle_count >= kLeastCut && !facts.bunches.empty();
+}
+
+// Of something large that the picture's sides cut, only what is seen.
+void Director::add(Item item, std::vector<Item>& to) {
+    if (is_partly_seen(item.instance, item.level)) {
         item.first_run = uint32_t(frame_.runs.size());
-        uint64_t count = append_side(facts_.levels[level].bunches, placement, eye_m_, normal, is_along, frame_.runs);
+        append_seen(facts_.levels[item.level].bunches, placements_[item.instance], eye_m_, sides_, frame_.runs);
         item.run_count = uint32_t(frame_.runs.size()) - item.first_run;
-        if (item.run_count > 0) frame_.items.push_back(item);
-        return int64_t(count);
-    };
-    uint32_t against = along == fine ? coarser(transition) : fine;
-    int64_t now = add(along, true) + add(against, false);
-    size_t run_count = frame_.runs.size();
-    auto count = [&](uint32_t level, bool is_along) {
-        return int64_t(append_side(facts_.levels[level].bunches, placement, eye_m_, normal, is_along, frame_.runs));
-    };
-    int64_t next = count(against, true) + count(along, false);
-    frame_.runs.resize(run_count);
-    divided.difference = along == fine ? now - next : next - now;
+        if (item.run_count == 0) return;
+    }
+    to.push_back(item);
 }
 
 void Director::list(uint32_t instance, const State& state, const Selector& selector) {
     const Transition& transition = state.transition;
     const Placement& placement = placements_[instance];
     if (transition.is_resting()) {
-        frame_.items.push_back({instance, transition.to, Show::whole, 1, 0, 1});
+        add({instance, transition.to, Show::whole, 1, 0, 1}, frame_.items);
         frame_.error_px = std::max(frame_.error_px, selector.error_px(placement, transition.to));
         return;
     }
@@ -210,45 +134,71 @@ void Director::list(uint32_t instance, const State& state, const Selector& selec
         case Variant::fsi:
         case Variant::fsi_paper: {
             fading.drawn_level = drawn_level(state);
-            if (auto found = divided_.find(instance); found != divided_.end()) {
+            if (auto found = partly_.find(instance); found != partly_.end() && found->second.split) {
                 list_divided(instance, state, found->second, grain);
                 break;
             }
+            count_seen(instance);
             double share = visible_share(transition, fading.drawn_level);
-            frame_.items.push_back({instance, fading.drawn_level, Show::visible, share, change, grain});
+            add({instance, fading.drawn_level, Show::visible, share, change, grain}, frame_.items);
             break;
         }
         case Variant::dither:
-            frame_.items.push_back({instance, transition.to, Show::dithered_in, transition.phase, change, 1});
-            frame_.items.push_back({instance, transition.from, Show::dithered_out, transition.phase, change, 1});
+            add({instance, transition.to, Show::dithered_in, transition.phase, change, 1}, frame_.items);
+            add({instance, transition.from, Show::dithered_out, transition.phase, change, 1}, frame_.items);
             break;
         default: {
             bool is_new_whole = share_of_new >= 1;
             uint32_t whole = is_new_whole ? transition.to : transition.from;
             uint32_t other = is_new_whole ? transition.from : transition.to;
-            frame_.items.push_back({instance, whole, Show::whole, 1, change, 1});
-            frame_.translucent.push_back({instance, other, Show::translucent, std::min(share_of_new, share_of_old), change, 1});
+            add({instance, whole, Show::whole, 1, change, 1}, frame_.items);
+            add({instance, other, Show::translucent, std::min(share_of_new, share_of_old), change, 1}, frame_.translucent);
         }
     }
     frame_.fading.push_back(fading);
 }
 
+// What is near comes first, so that what lies behind it need not be shaded.
 void Director::sort_items() {
-    std::stable_sort(frame_.items.begin(), frame_.items.end(), [](const Item& a, const Item& b) { return a.level < b.level; });
+    struct Place {
+        uint32_t level = 0;
+        float distance2_m2 = 0;
+        uint32_t item = 0;
+    };
+    std::vector<Place> places;
+    places.reserve(frame_.items.size());
     for (const Item& item : frame_.items) {
-        if (item.side == Item::Side::whole) frame_.triangle_count += facts_.levels[item.level].triangle_count;
+        glm::dvec3 from_eye_m = placements_[item.instance].at(facts_.middle_m) - eye_m_;
+        places.push_back({item.level, float(glm::dot(from_eye_m, from_eye_m)), uint32_t(places.size())});
+    }
+    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+        return std::tie(a.level, a.distance2_m2, a.item) < std::tie(b.level, b.distance2_m2, b.item);
+    });
+    std::vector<Item> sorted;
+    sorted.reserve(places.size());
+    for (const Place& place : places) sorted.push_back(frame_.items[place.item]);
+    frame_.items = std::move(sorted);
+    for (const Item& item : frame_.items) {
+        if (item.run_count == 0) frame_.triangle_count += facts_.levels[item.level].triangle_count;
     }
     for (const TriangleRun& run : frame_.runs) frame_.triangle_count += run.index_count / 3;
-    for (const Item& item : frame_.translucent) frame_.triangle_count += facts_.levels[item.level].triangle_count;
+    for (const Item& item : frame_.translucent) {
+        if (item.run_count == 0) frame_.triangle_count += facts_.levels[item.level].triangle_count;
+    }
 }
 
-int64_t Director::balance() const {
-    int64_t balance = 0;
-    for (uint32_t i = 0; i < states_.size(); ++i) {
-        const State& state = states_[i];
-        if (!state.transition.is_resting()) balance += (state.is_odd ? -1 : 1) * difference(i, state.transition);
+void Director::count_settled(std::span<const uint32_t> in_view) {
+    frame_.settled_triangle_count = 0;
+    for (const Item& item : frame_.items) {
+        if (!states_[item.instance].transition.is_resting()) continue;
+        if (item.run_count == 0) frame_.settled_triangle_count += facts_.levels[item.level].triangle_count;
+        for (uint32_t i = 0; i < item.run_count; ++i)
+            frame_.settled_triangle_count += frame_.runs[item.first_run + i].index_count / 3;
     }
-    return balance;
+    for (uint32_t instance : in_view) {
+        const Transition& transition = states_[instance].transition;
+        if (!transition.is_resting()) frame_.settled_triangle_count += triangles_seen(instance, transition.to);
+    }
 }
 
 void Director::decide(const view::Camera& camera, double dt_s) {
@@ -265,7 +215,7 @@ void Director::decide(const view::Camera& camera, double dt_s, int64_t& balance)
     Selector selector(facts_, options_.select, camera, foresees ? &ahead : nullptr);
     last_triangle_count_ = frame_.triangle_count;
     way_m_ = frame_count_ > 0 ? camera.position_m - eye_m_ : glm::dvec3(0);
-    eye_m_ = camera.position_m;
+    eye_m_ = camera.position_m, sides_ = view::sides_of(camera);
     frame_ = {};
     ++frame_count_;
     balance_ = balance;
@@ -275,6 +225,7 @@ void Director::decide(const view::Camera& camera, double dt_s, int64_t& balance)
         bool is_in_view = selector.is_in_view(placements_[instance]);
         bool has_begun = advance(instance, states_[instance], placements_[instance], selector, dt_s, is_in_view);
         if (!is_in_view) continue;
+        states_[instance].is_cut = !selector.is_within_sides(placements_[instance]);
         frame_.begun_count += has_begun;
         in_view.push_back(instance);
     }
@@ -285,6 +236,7 @@ void Director::decide(const view::Camera& camera, double dt_s, int64_t& balance)
     balance = balance_;
     frame_.tested_count = states_.size();
     sort_items();
+    count_settled(in_view);
     auto depth_m = [&](const Item& item) {
         glm::dvec3 from_eye_m = placements_[item.instance].at(facts_.middle_m) - camera.position_m;
         return glm::dot(from_eye_m, from_eye_m);

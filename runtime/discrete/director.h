@@ -1,8 +1,10 @@
 // Decides, frame by frame, which levels of which instances are drawn, and how.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,9 +32,10 @@ struct Item {
     double share = 1;     // 0..1
     uint32_t change = 0;  // whose visibility: that of the change between this level and the next coarser
     double grain = 1;     // times as wide as the visibility's own
-    // Drawn on one side of a plane through the eye alone: runs [first_run, + run_count) of FrameList::runs.
+    // Drawn on one side of a plane through the eye alone.
     enum class Side : uint32_t { whole, along, against } side = Side::whole;
     glm::dvec3 normal{0};  // of the plane, in the world
+    // Of the level runs [first_run, + run_count) of FrameList::runs; if none: all of it.
     uint32_t first_run = 0, run_count = 0;
 
     bool operator==(const Item&) const = default;
@@ -47,15 +50,16 @@ struct Fading {
 
 // What one frame draws and what it did.
 struct FrameList {
-    std::vector<Item> items;        // by level, then by instance: those of a level stand one after the other
+    std::vector<Item> items;        // by level, those of a level one after the other, front to back
     std::vector<Item> translucent;  // over them, back to front
     std::vector<Fading> fading;     // by instance
-    std::vector<TriangleRun> runs;  // of items that are divided
+    std::vector<TriangleRun> runs;  // of items that are divided, or cut by the picture's sides
     uint64_t triangle_count = 0;
-    uint64_t tested_count = 0;   // instances looked at
-    uint64_t in_view_count = 0;  // of them
-    uint64_t begun_count = 0;    // changes of level begun, turned or done at once, in view
-    double error_px = 0;         // the greatest bound of what is drawn and not only hidden, against level 0
+    uint64_t settled_triangle_count = 0;  // as if the changes of level under way were over
+    uint64_t tested_count = 0;            // instances looked at
+    uint64_t in_view_count = 0;           // of them
+    uint64_t begun_count = 0;             // changes of level begun, turned or done at once, in view
+    double error_px = 0;                  // the greatest bound of what is drawn and not only hidden, against level 0
 };
 
 // All that is in view at its finest level: what there is to compare with.
@@ -92,26 +96,34 @@ class Director {
         Transition transition;
         bool is_known = false;  // has been looked at
         bool was_in_view = false;
-        bool is_odd = false;    // draws its finer level in odd frames
+        bool is_odd = false;  // draws its finer level in odd frames
+        bool is_cut = false;  // by the picture's sides
         uint8_t grain_doublings = 0;
     };
-    // A thing that is divided, and what its even frames draw more than its odd ones.
-    struct Divided {
-        Split split;
+    // A change of level of which not all is drawn in each frame: divided, or of something that the picture's sides cut; and what
+    // its even frames draw more than its odd ones if it is not odd.
+    struct Partly {
+        std::optional<Split> split;
         int64_t difference = 0;
     };
     bool advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
                  bool is_in_view);
     glm::dvec3 way_past(uint32_t instance) const;
-    bool is_cut(uint32_t instance) const;
+    bool has_jumped(uint32_t instance) const;
+    void suit_grain(State& state, const Placement& placement, const Selector& selector) const;
+    bool is_partly_seen(uint32_t instance, uint32_t level) const;
+    void add(Item item, std::vector<Item>& to);
+    void list(uint32_t instance, const State& state, const Selector& selector);
+    void sort_items();
+    void count_settled(std::span<const uint32_t> in_view);
+    uint32_t drawn_level(const State& state) const;
+    // What goes into even frames and what into odd ones (director_parities.cpp).
     void begin(const Selector& selector);
     void take_side(uint32_t instance);
     bool divide(uint32_t instance);
-    void suit_grain(State& state, const Placement& placement, const Selector& selector) const;
-    void list_divided(uint32_t instance, const State& state, Divided& divided, double grain);
-    void list(uint32_t instance, const State& state, const Selector& selector);
-    void sort_items();
-    uint32_t drawn_level(const State& state) const;
+    void count_seen(uint32_t instance);
+    void list_divided(uint32_t instance, const State& state, Partly& partly, double grain);
+    uint64_t triangles_seen(uint32_t instance, uint32_t level) const;
     int64_t difference(uint32_t instance, const Transition& transition) const;
 
     ChainFacts facts_;
@@ -122,7 +134,8 @@ class Director {
     FrameList frame_;
     Foresight foresight_;
     std::vector<Placement> placed_before_;  // in the frame before, if they stood elsewhere
-    std::map<uint32_t, Divided> divided_;   // by instance
+    std::map<uint32_t, Partly> partly_;     // by instance
+    std::array<glm::dvec3, 4> sides_{};     // of the picture, inwards
     std::vector<uint32_t> begun_;           // this frame, in view: instances
     uint64_t frame_count_ = 0;
     uint64_t last_triangle_count_ = 0;  // of the frame before

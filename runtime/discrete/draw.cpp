@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
-#include <numeric>
 
 #include "formats/srgb.h"
 #include "runtime/discrete/draw_shaders.h"
@@ -17,7 +16,7 @@
 namespace overlook::discrete {
 namespace {
 
-constexpr GLuint kItemLocation = 4;
+constexpr GLuint kVertices = 0, kItems = 1;  // where an array's attributes come from
 
 // Lighter above the horizon than below: as behind meshes.
 constexpr char kBackground[] = R"(
@@ -42,13 +41,38 @@ std::span<const std::byte> bytes_of(const std::vector<T>& from) {
     return std::as_bytes(std::span(from));
 }
 
-void add_attribute(GLuint array, GLuint location, GLint count, GLenum type, bool is_whole, bool is_share, size_t offset) {
-    glEnableVertexArrayAttrib(array, location);
-    if (is_whole)
-        glVertexArrayAttribIFormat(array, location, count, type, GLuint(offset));
+enum class As { whole, number, share };  // of a whole number as it is, as it is but in floats, of its type's greatest
+
+struct Attribute {
+    GLuint location = 0, from = 0;
+    GLint count = 0;
+    GLenum type = GL_FLOAT;
+    As as = As::number;
+    size_t offset = 0;
+};
+// As in draw_shaders.h.
+constexpr Attribute kAttributes[] = {
+    {0, kVertices, 4, GL_UNSIGNED_SHORT, As::whole, offsetof(Vertex, position)},
+    {1, kVertices, 2, GL_SHORT, As::share, offsetof(Vertex, normal)},
+    {2, kVertices, 2, GL_UNSIGNED_SHORT, As::number, offsetof(Vertex, uv)},
+    {3, kVertices, 4, GL_UNSIGNED_BYTE, As::share, offsetof(Vertex, colour)},
+    {4, kItems, 4, GL_FLOAT, As::number, offsetof(PackedItem, place_m)},
+    {5, kItems, 4, GL_FLOAT, As::number, offsetof(PackedItem, cosine)},
+    {6, kItems, 4, GL_UNSIGNED_INT, As::whole, offsetof(PackedItem, id)},
+    {7, kItems, 2, GL_FLOAT, As::number, offsetof(PackedItem, shift)},
+    {8, kItems, 2, GL_UNSIGNED_INT, As::whole, offsetof(PackedItem, first_pose)},
+    {9, kItems, 3, GL_FLOAT, As::number, offsetof(PackedItem, line)},
+    {10, kItems, 1, GL_UNSIGNED_INT, As::whole, offsetof(PackedItem, side)},
+};
+
+void add_attribute(GLuint array, const Attribute& one) {
+    glEnableVertexArrayAttrib(array, one.location);
+    if (one.as == As::whole)
+        glVertexArrayAttribIFormat(array, one.location, one.count, one.type, GLuint(one.offset));
     else
-        glVertexArrayAttribFormat(array, location, count, type, is_share ? GL_TRUE : GL_FALSE, GLuint(offset));
-    glVertexArrayAttribBinding(array, location, location == kItemLocation ? 1 : 0);
+        glVertexArrayAttribFormat(array, one.location, one.count, one.type, one.as == As::share ? GL_TRUE : GL_FALSE,
+                                  GLuint(one.offset));
+    glVertexArrayAttribBinding(array, one.location, one.from);
 }
 
 }  // namespace
@@ -65,12 +89,6 @@ uint64_t ListBuffers::fill(const DrawList& list) {
     fill(items_, bytes_of(list.items));
     fill(commands_, bytes_of(list.commands));
     fill(poses_, bytes_of(list.poses));
-    if (list.items.size() > index_count_) {
-        std::vector<uint32_t> indices(list.items.size() + list.items.size() / 2);
-        std::iota(indices.begin(), indices.end(), 0u);
-        fill(indices_, bytes_of(indices));
-        index_count_ = uint32_t(indices.size());
-    }
     return bytes;
 }
 
@@ -83,7 +101,7 @@ Result<Drawing> Drawing::make(const Chain& chain, uint32_t shading_rounds) {
     made.nothing_ = gl::make_vertex_array();
     if (Result<void> uploaded = made.upload_levels(); !uploaded) return tl::unexpected(uploaded.error());
     if (Result<void> looks = made.make_looks(); !looks) return tl::unexpected(looks.error());
-    made.upload_visibilities();
+    if (Result<void> uploaded = made.upload_visibilities(); !uploaded) return tl::unexpected(uploaded.error());
     if (Result<void> programs = made.make_programs(); !programs) return tl::unexpected(programs.error());
     if (glGetError() == GL_OUT_OF_MEMORY) return impossible("the chain does not fit into the renderer's memory");
     return made;
@@ -114,14 +132,10 @@ Result<void> Drawing::upload_levels() {
 
     array_ = gl::make_vertex_array();
     GLuint array = array_.id();
-    glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(Vertex));
+    glVertexArrayVertexBuffer(array, kVertices, vertices_.id(), 0, sizeof(Vertex));
     glVertexArrayElementBuffer(array, indices_.id());
-    add_attribute(array, 0, 4, GL_UNSIGNED_SHORT, true, false, offsetof(Vertex, position));
-    add_attribute(array, 1, 2, GL_SHORT, false, true, offsetof(Vertex, normal));
-    add_attribute(array, 2, 2, GL_UNSIGNED_SHORT, false, false, offsetof(Vertex, uv));
-    add_attribute(array, 3, 4, GL_UNSIGNED_BYTE, false, true, offsetof(Vertex, colour));
-    add_attribute(array, kItemLocation, 1, GL_UNSIGNED_INT, true, false, 0);
-    glVertexArrayBindingDivisor(array, 1, 1);
+    for (const Attribute& one : kAttributes) add_attribute(array, one);
+    glVertexArrayBindingDivisor(array, kItems, 1);
     return {};
 }
 
@@ -145,12 +159,13 @@ Result<void> Drawing::make_looks() {
                        float(surface.colour[3]) / 255};
         if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
         look.is_picture = looks_.size() >= chain_->surfaces.size() - chain_->picture_count;
+        look.is_two_sided = chain_->surfaces[looks_.size()].is_two_sided;
         looks_.push_back(std::move(look));
     }
     return {};
 }
 
-void Drawing::upload_visibilities() {
+Result<void> Drawing::upload_visibilities() {
     std::vector<PackedVisibility> table;
     std::vector<uint8_t> values;
     for (const Visibility& one : visibilities_of(*chain_)) {
@@ -163,9 +178,17 @@ void Drawing::upload_visibilities() {
         layout_.visibilities.back().values.clear();
     }
     values.resize((values.size() + 3) / 4 * 4);
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (values.size() / 4 > size_t(most))
+        return impossible("visibilities of {} values are too large for this renderer ({} at most)", values.size(),
+                          4 * uint64_t(most));
     visibilities_ = gl::make_buffer(bytes_of(table));
     values_ = gl::make_buffer(bytes_of(values));
+    visibility_view_ = gl::make_view(visibilities_.id(), GL_RGBA32UI);
+    value_view_ = gl::make_view(values_.id(), GL_R32UI);
     bytes_ += bytes_of(table).size() + values.size();
+    return {};
 }
 
 std::vector<double> Drawing::grain_m() const {
@@ -176,9 +199,9 @@ std::vector<double> Drawing::grain_m() const {
 }
 
 Result<gl::Program> Drawing::program(const std::string& name, const std::string& defines, const std::string& main) const {
-    std::string vertex = std::string("#version 450 core\n") + shaders::kItems + shaders::kVertex;
+    std::string vertex = std::string("#version 450 core\n") + shaders::kItemInputs + shaders::kVertex;
     std::string fragment = std::string(gl::shaders::kEncoding) + fmt::format("#define SHADING_ROUNDS {}\n", shading_rounds_) +
-                           defines + shaders::kItems + shaders::kFragment + shaders::kVisibility + main;
+                           defines + shaders::kItem + shaders::kFragment + shaders::kVisibility + main;
     return gl::Program::make(name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 
@@ -209,12 +232,11 @@ void Drawing::draw_calls(const gl::Program& program, const ListBuffers& buffers,
     glUniform1i(program.at("is_animated"), layout_.clip_s > 0 ? 1 : 0);
     glUniform1i(program.at("has_normals"), chain_->attributes.normals ? 1 : 0);
     glUniformMatrix4fv(program.at("clip_from_relative"), 1, GL_FALSE, glm::value_ptr(clip_from_relative));
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers.items_.id());
     if (layout_.clip_s > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers.poses_.id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, visibilities_.id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, values_.id());
+    glBindTextureUnit(1, visibility_view_.id());
+    glBindTextureUnit(2, value_view_.id());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffers.commands_.id());
-    glVertexArrayVertexBuffer(array_.id(), 1, buffers.indices_.id(), 0, sizeof(uint32_t));
+    glVertexArrayVertexBuffer(array_.id(), kItems, buffers.items_.id(), 0, sizeof(PackedItem));
     glBindVertexArray(array_.id());
     for (const Call& call : calls) {
         const Look& look = looks_[call.surface];
@@ -222,6 +244,7 @@ void Drawing::draw_calls(const gl::Program& program, const ListBuffers& buffers,
         glUniform4fv(program.at("base_colour"), 1, glm::value_ptr(look.colour));
         glUniform1f(program.at("alpha_cutoff"), look.alpha_cutoff);
         glUniform1i(program.at("is_card"), look.is_picture ? 1 : 0);
+        glUniform1i(program.at("is_two_sided"), look.is_two_sided ? 1 : 0);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                     reinterpret_cast<const void*>(sizeof(Command) * size_t(call.first_command)),
                                     GLsizei(call.command_count), 0);

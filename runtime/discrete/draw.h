@@ -30,8 +30,7 @@ class ListBuffers {
 
   private:
     friend class Drawing;
-    gl::StreamBuffer items_, indices_, commands_, poses_;
-    uint32_t index_count_ = 0;
+    gl::StreamBuffer items_, commands_, poses_;
 };
 
 // All levels in one vertex and one index buffer, the surfaces' pictures and the visibilities. A context must be current.
@@ -65,16 +64,18 @@ class Drawing {
         glm::vec4 colour{1};      // linear
         float alpha_cutoff = 0;   // what is more transparent is not drawn
         bool is_picture = false;  // of billboards
+        bool is_two_sided = false;
     };
     Result<void> upload_levels();
     Result<void> make_looks();
-    void upload_visibilities();
+    Result<void> upload_visibilities();
     Result<void> make_programs();
 
     const Chain* chain_ = nullptr;
     uint32_t shading_rounds_ = 0;
     ChainLayout layout_;
     gl::Buffer vertices_, indices_, visibilities_, values_;
+    gl::Texture visibility_view_, value_view_;  // of the buffers
     gl::VertexArray array_;
     std::vector<Look> looks_;
     gl::Program one_picture_, background_;

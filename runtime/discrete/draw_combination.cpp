@@ -42,11 +42,16 @@ std::vector<Near> nearest_first(std::span<const UnderWay> chains, const view::Ca
     return all;
 }
 
-PackedMoved packed(uint32_t id, const Fading& fading, const Reprojection& moved, const Extent& extent) {
+// has_long_ramps needs weighs_by_phase.
+bool has_long_ramps(const Remedies& remedies) {
+    return remedies.has_long_ramps && remedies.weighs_by_phase;
+}
+
+PackedMoved packed(uint32_t id, const Fading& fading, bool is_eased, const Reprojection& moved, const Extent& extent) {
     PackedMoved made;
     made.old_from_new = moved.old_from_new, made.new_from_old = moved.new_from_old;
     made.id = id, made.from = fading.transition.from, made.to = fading.transition.to;
-    made.phase = float(fading.transition.phase);
+    made.phase = float(is_eased ? eased(fading.transition.phase) : fading.transition.phase);
     made.near_z = extent.near_z, made.far_z = extent.far_z;
     return made;
 }
@@ -79,6 +84,7 @@ Combination combination_of(const FrameOptions& options, std::span<const UnderWay
     const Placement still;
     if (options.reprojects) made.camera = reprojection(old_camera, still, new_camera, still);
     if (options.variant == Variant::fsi_paper) return made;
+    bool is_eased = options.remedies.eases_ends && has_long_ramps(options.remedies);
     std::vector<Extent> extents;
     for (const auto& [chain, fading, from_eye_m] : nearest_first(chains, new_camera)) {
         const Placement &before = chain->before[fading.instance], &now = chain->now[fading.instance];
@@ -86,7 +92,7 @@ Combination combination_of(const FrameOptions& options, std::span<const UnderWay
         bool has_own = options.reprojects && options.remedies.moves_instances && before != now;
         made.has_own_motion = made.has_own_motion || has_own;
         Reprojection moved = has_own ? reprojection(old_camera, before, new_camera, now) : made.camera;
-        made.moved.push_back(packed(chain->first_instance + fading.instance + 1, fading, moved, extents.back()));
+        made.moved.push_back(packed(chain->first_instance + fading.instance + 1, fading, is_eased, moved, extents.back()));
     }
     made.tiles = tiles_of(new_camera, extents);
     return made;
@@ -97,8 +103,8 @@ Result<gl::Program> Combiner::make_program(bool is_one, bool moves) const {
     std::string defines = define("SAMPLES", int(samples_)) + define("TILE_PX", int(Tiles::kSide_px)) + define("IS_ONE", is_one) +
                           define("MOVES", moves) + define("KEEPS_HIDDEN", remedies.keeps_hidden) +
                           define("SEARCHES", remedies.searches) + define("WEIGHS_BY_PHASE", remedies.weighs_by_phase) +
-                          define("HAS_LONG_RAMPS", remedies.has_long_ramps && remedies.weighs_by_phase) +
-                          define("HAS_WIDE_IDS", remedies.has_wide_ids) + define("HAS_WIDE_DEPTH", remedies.has_wide_depth);
+                          define("HAS_LONG_RAMPS", has_long_ramps(remedies)) + define("HAS_WIDE_IDS", remedies.has_wide_ids) +
+                          define("HAS_WIDE_DEPTH", remedies.has_wide_depth);
     std::string vertex = "#version 450 core\n" + defines + shaders::kTileVertex;
     std::string fragment = "#version 450 core\n" + defines + shaders::kBuffers + shaders::kTwoFrames +
                            shaders::kCombinationInputs + shaders::kCombinationParts + shaders::kCombinationMain;
@@ -147,6 +153,37 @@ void Combiner::fill_tiles(const gl::Target& target, const Combination& combinati
     fill(tiles_, ones), fill(entries_, entries), fill(moved_, combination.moved);
 }
 
+// Returns calls made.
+uint64_t Combiner::draw_tiles(bool is_one, bool moves, const gl::Target& target, const Combination& combination) {
+    uint32_t first = is_one ? 0 : one_count_, end = is_one ? one_count_ : tile_count_;
+    if (first == end) return 0;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, moved_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, tiles_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, entries_.id());
+    const gl::Program& program = use_program(is_one, moves, target, combination);
+    glUniform1ui(program.at("first_tile"), first);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(end - first));
+    return 1;
+}
+
+void Combiner::prepare(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older) {
+    Combination combination;
+    if (options_.variant == Variant::fsi_paper) {
+        combine(target, newer, older, combination);
+        return;
+    }
+    // One thing in the first square, two in the second.
+    combination.moved.resize(2);
+    combination.tiles.columns = 2, combination.tiles.rows = 1;
+    combination.tiles.entries.assign(2 * Tiles::kMost, 0);
+    combination.tiles.entries[0] = combination.tiles.entries[Tiles::kMost] = 1;
+    combination.tiles.entries[Tiles::kMost + 1] = 2;
+    for (bool moves : {true, false}) {
+        combination.has_own_motion = moves;
+        combine(target, newer, older, combination);
+    }
+}
+
 const gl::Program& Combiner::use_program(bool is_one, bool moves, const gl::Target& target, const Combination& combination) {
     const gl::Program& program = tiled_[is_one][moves];
     program.use();
@@ -155,6 +192,9 @@ const gl::Program& Combiner::use_program(bool is_one, bool moves, const gl::Targ
     glUniformMatrix4fv(program.at("camera_old_from_new"), 1, GL_FALSE, glm::value_ptr(combination.camera.old_from_new));
     glUniformMatrix4fv(program.at("camera_new_from_old"), 1, GL_FALSE, glm::value_ptr(combination.camera.new_from_old));
     glUniform1f(program.at("softness"), float(options_.remedies.softness));
+    std::vector<glm::vec2> places(samples_, glm::vec2(0.5f));
+    for (uint32_t i = 0; samples_ > 1 && i < samples_; ++i) glGetMultisamplefv(GL_SAMPLE_POSITION, i, &places[i].x);
+    glUniform2fv(program.at("sample_px"), GLsizei(samples_), &places[0].x);
     return program;
 }
 
@@ -177,17 +217,7 @@ uint64_t Combiner::combine(const gl::Target& target, const TurnBuffer& newer, co
         combined_px_ = uint64_t(target.width_px()) * target.height_px();
     } else {
         fill_tiles(target, combination, !copies);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, moved_.id());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, tiles_.id());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, entries_.id());
-        for (bool is_one : {true, false}) {
-            uint32_t first = is_one ? 0 : one_count_, end = is_one ? one_count_ : tile_count_;
-            if (first == end) continue;
-            const gl::Program& program = use_program(is_one, combination.has_own_motion, target, combination);
-            glUniform1ui(program.at("first_tile"), first);
-            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(end - first));
-            ++calls;
-        }
+        for (bool is_one : {true, false}) calls += draw_tiles(is_one, combination.has_own_motion, target, combination);
     }
     glDepthFunc(GL_GREATER);
     return calls;

@@ -59,12 +59,16 @@ class Combiner {
     static Result<Combiner> make(const FrameOptions& options, uint32_t samples);
     // Into the target, which is as large as the buffers and has as many samples. Returns calls made.
     uint64_t combine(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older, const Combination& combination);
+    // Puts some pixels together by each way that there is, so that no later frame waits for a shader; the target's picture is
+    // lost.
+    void prepare(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older);
     // How many pixels the last one put together; it copied the others.
     uint64_t combined_px() const { return combined_px_; }
 
   private:
     const gl::Program& use_program(bool is_one, bool moves, const gl::Target& target, const Combination& combination);
     Result<gl::Program> make_program(bool is_one, bool moves) const;
+    uint64_t draw_tiles(bool is_one, bool moves, const gl::Target& target, const Combination& combination);
     void fill_tiles(const gl::Target& target, const Combination& combination, bool takes_all);
 
     FrameOptions options_;

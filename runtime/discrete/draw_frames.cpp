@@ -61,6 +61,7 @@ void FrameDrawer::decide_group(Group& group, const view::Camera& camera, double 
     group.now = draw_list(group.drawing->layout(), group.drawing->chain(), frame, director.placements(), camera, clip_s,
                           group.first_instance);
     counts_.triangle_count += frame.triangle_count;
+    counts_.settled_triangle_count += frame.settled_triangle_count;
     counts_.tested_count += frame.tested_count;
     counts_.in_view_count += frame.in_view_count;
     counts_.begun_count += frame.begun_count;
@@ -109,6 +110,19 @@ Result<FrameCounts> FrameDrawer::draw(const gl::Target& target, const DrawOption
     }
     counts.draw_call_count = discrete::draw(target, parts, look);
     return counts;
+}
+
+Result<void> FrameDrawer::prepare(const view::Camera& camera, const gl::Target& target) {
+    if (turns_) return turns_->prepare(target);
+    if (options_.variant != Variant::blend) return {};
+    Group& group = groups_.front();
+    FrameList frame;
+    frame.translucent = {{0, uint32_t(group.director.facts().levels.size()) - 1, Show::translucent, 0.5, 0, 1}};
+    DrawList list = draw_list(group.drawing->layout(), group.drawing->chain(), frame, group.director.placements(), camera, 0);
+    group.buffers.fill(list);
+    Drawn part{group.drawing, &group.buffers, &list};
+    discrete::draw(target, {&part, 1}, {});
+    return {};
 }
 
 }  // namespace overlook::discrete

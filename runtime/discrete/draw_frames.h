@@ -16,7 +16,8 @@ namespace overlook::discrete {
 
 // What one frame took: exact, and the same on every run.
 struct FrameCounts {
-    uint64_t triangle_count = 0;  // submitted for this frame
+    uint64_t triangle_count = 0;          // submitted for this frame
+    uint64_t settled_triangle_count = 0;  // that a frame will take when the changes under way are over: what budgets go by
     uint64_t draw_call_count = 0;
     uint64_t uploaded_bytes = 0;
     uint64_t tested_count = 0;    // instances looked at
@@ -54,6 +55,9 @@ class FrameDrawer {
     void decide(const view::Camera& camera, double dt_s, double clip_s);
     // Draws and resolves; need not wait until it is drawn. Fails as Turns::draw.
     Result<FrameCounts> draw(const gl::Target& target, const DrawOptions& look);
+    // Draws into the target, whose picture is lost, what changes of level are drawn by, so that no frame waits for shaders when
+    // the first one begins. Fails as Turns::draw.
+    Result<void> prepare(const view::Camera& camera, const gl::Target& target);
     // From the next frame on; levels and changes under way stay as they are. Fails as make().
     Result<void> change(const FrameOptions& options);
 

@@ -43,7 +43,7 @@ void add_run(const ChainLayout& layout, uint32_t level, uint32_t begin, uint32_t
         commands.push_back({run.surface, {run.index_count, end - begin, run.first_index, from.base_vertex, begin}});
 }
 
-// Of one item that is divided.
+// Of one item of which not all is drawn.
 void add_runs(const ChainLayout& layout, const Item& item, uint32_t place, std::span<const TriangleRun> runs,
               std::vector<SurfaceCommand>& commands) {
     const ChainLayout::LevelRuns& from = layout.levels[item.level];
@@ -84,12 +84,12 @@ DrawList draw_list(const ChainLayout& layout, const Chain& chain, const FrameLis
     uint32_t whole_count = uint32_t(frame.items.size());
     for (uint32_t begin = 0, end = 0; begin < whole_count; begin = end) {
         const Item& first = frame.items[begin];
-        if (first.side != Item::Side::whole) {
+        if (first.run_count > 0) {
             add_runs(layout, first, begin, frame.runs, whole);
             end = begin + 1;
             continue;
         }
-        while (end < whole_count && frame.items[end].level == first.level && frame.items[end].side == Item::Side::whole) ++end;
+        while (end < whole_count && frame.items[end].level == first.level && frame.items[end].run_count == 0) ++end;
         add_run(layout, first.level, begin, end, whole);
     }
     std::stable_sort(whole.begin(), whole.end(), [](const auto& a, const auto& b) { return a.surface < b.surface; });
@@ -98,7 +98,10 @@ DrawList draw_list(const ChainLayout& layout, const Chain& chain, const FrameLis
         const Item& item = frame.translucent[i - whole_count];
         double distance_m = glm::length(placements[item.instance].at(chain.middle_m) - camera.position_m);
         std::vector<SurfaceCommand> commands;
-        add_run(layout, item.level, i, i + 1, commands);
+        if (item.run_count > 0)
+            add_runs(layout, item, i, frame.runs, commands);
+        else
+            add_run(layout, item.level, i, i + 1, commands);
         for (const SurfaceCommand& one : commands) {
             list.translucent.push_back({distance_m, one.surface, uint32_t(list.commands.size())});
             list.commands.push_back(one.command);

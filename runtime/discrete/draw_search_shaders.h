@@ -42,20 +42,36 @@ vec3 both(Way one, Seen newer, vec4 older, uint older_level) {
 #endif
 }
 
-// A pixel of the older buffer, and where between pixels that what it shows lies that is seen here now, at depth z.
+// Where in its pixel each sample lies.
+uniform vec2 sample_px[SAMPLES];
+// The sample of a picture that is nearest to a place.
+void nearest_sample(vec2 at_px, out ivec2 pixel, out int index) {
+    float least = 4.0;
+    for (int i = 0; i < SAMPLES; ++i) {
+        vec2 whole = floor(at_px - sample_px[i] + 0.5), off = at_px - sample_px[i] - whole;
+        float apart = dot(off, off);
+        if (apart >= least) continue;
+        least = apart;
+        pixel = ivec2(whole);
+        index = i;
+    }
+}
+
+// A sample of the older buffer, and where between samples that what it shows lies that is seen here now, at depth z.
 struct Hit {
     ivec2 pixel;
+    int index;
     vec2 at_px;
     uint id, level;
     float z;
 };
-// The older buffer's colour between pixels, of the same thing in a level; and the pixel's own order of appearance. is_there: some
+// The older buffer's colour between pixels, of the same thing in a level; and the sample's own order of appearance. is_there: some
 // of the pixels round the place show that.
 vec4 older_colour(Hit hit, uint level, out bool is_there) {
-    vec2 at = hit.at_px - 0.5, base = floor(at + 1.0 / 256.0), share = max(at - base, 0.0);
+    vec2 at = hit.at_px - sample_px[gl_SampleID], base = floor(at + 1.0 / 256.0), share = max(at - base, 0.0);
     if (share.x < 1.0 / 128.0) share.x = 0.0;
     if (share.y < 1.0 / 128.0) share.y = 0.0;
-    vec4 own = fetch(old_colour, hit.pixel);
+    vec4 own = fetch_sample(old_colour, hit.pixel, hit.index);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
@@ -70,18 +86,19 @@ vec4 older_colour(Hit hit, uint level, out bool is_there) {
     is_there = weights > 0.0;
     return vec4(is_there ? sum / weights : own.rgb, 1.0 - own.a);
 }
-// Goes after a surface: from a first guess of the depth here to a pixel of the older buffer that is seen at this place now. id: the
+// Goes after a surface: from a first guess of the depth here to a sample of the older buffer that is seen at this place now. id: the
 // only thing that counts, or ~0: anything. Iterative image warping (Yang et al. 2011; Bowles et al. 2012).
 bool follow(mat4 old_from_new, mat4 new_from_old, vec2 at_px, float z, uint id, out Hit hit) {
     vec2 clip = clip_of(at_px);
     for (int i = 0; i < 4; ++i) {
-        hit.pixel = ivec2(floor(moved(old_from_new, clip, z).xy));
+        nearest_sample(moved(old_from_new, clip, z).xy, hit.pixel, hit.index);
         if (!is_inside(hit.pixel)) return false;
-        uvec2 ids = fetch(old_ids, hit.pixel).xy;
+        uvec2 ids = fetch_sample(old_ids, hit.pixel, hit.index).xy;
         hit.id = stored_id(ids.x);
         hit.level = ids.y;
         if (id != ~0u && hit.id != id) return false;
-        vec3 here = moved(new_from_old, clip_of(vec2(hit.pixel) + 0.5), stored_z(fetch(old_depth, hit.pixel).r));
+        float there_z = stored_z(fetch_sample(old_depth, hit.pixel, hit.index).r);
+        vec3 here = moved(new_from_old, clip_of(vec2(hit.pixel) + sample_px[hit.index]), there_z);
         vec2 off = abs(here.xy - at_px);
         z = here.z;
         if (max(off.x, off.y) > 0.75) continue;

@@ -3,19 +3,56 @@
 
 namespace overlook::discrete::shaders {
 
-// What vertex and fragment shaders know of an item: draw_list.h's PackedItem.
-inline constexpr char kItems[] = R"(
+// What vertex shaders know of an item: draw_list.h's PackedItem, an attribute each, and what they tell fragment shaders of it:
+// what these do not read costs nothing.
+inline constexpr char kItemInputs[] = R"(
+layout(location = 4) in vec4 item_place;     // metres of the chain's origin from the eye; scale
+layout(location = 5) in vec4 item_numbers;   // cosine, sine, share, grain
+layout(location = 6) in uvec4 item_which;    // id, level, show, change
+layout(location = 7) in vec2 item_shift;     // of the visibility's lookup
+layout(location = 8) in uvec2 item_more;     // first pose, is plain
+layout(location = 9) in vec3 item_line;      // in gl_FragCoord: above 0 on the side that is drawn if side is 1, else if it is 2
+layout(location = 10) in uint item_side;     // 0: all is drawn
+flat out vec4 known_place, known_numbers;
+flat out uvec4 known_which;
+flat out vec2 known_shift;
+flat out uint known_is_plain;
+flat out vec3 known_line;
+flat out uint known_side;
+void tell_item() {
+    known_place = item_place;
+    known_numbers = item_numbers;
+    known_which = item_which;
+    known_shift = item_shift;
+    known_is_plain = item_more.y;
+    known_line = item_line;
+    known_side = item_side;
+}
+)";
+
+// The same in a fragment shader.
+inline constexpr char kItem[] = R"(
+flat in vec4 known_place, known_numbers;
+flat in uvec4 known_which;
+flat in vec2 known_shift;
+flat in uint known_is_plain;
+flat in vec3 known_line;
+flat in uint known_side;
 struct Item {
-    vec3 place_m;      // of the chain's origin, from the eye
+    vec3 place_m;
     float scale;
     float cosine, sine, share, grain;
     uint id, level, show, change;
-    vec2 shift;        // of the visibility's lookup
-    uint first_pose, is_plain;
-    vec3 line;         // in gl_FragCoord: above 0 on the side that is drawn if side is 1, else if it is 2; 0: all is drawn
+    vec2 shift;
+    bool is_plain;
+    vec3 line;
     uint side;
 };
-layout(std430, binding = 0) readonly buffer Items { Item items[]; };
+Item own_item() {
+    return Item(known_place.xyz, known_place.w, known_numbers.x, known_numbers.y, known_numbers.z, known_numbers.w,
+                known_which.x, known_which.y, known_which.z, known_which.w, known_shift, known_is_plain != 0u, known_line,
+                known_side);
+}
 )";
 
 inline constexpr char kVertex[] = R"(
@@ -23,7 +60,6 @@ layout(location = 0) in uvec4 place;   // whole steps, and the part
 layout(location = 1) in vec2 octahedral;
 layout(location = 2) in vec2 uv_steps;
 layout(location = 3) in vec4 encoded_tint;
-layout(location = 4) in uint item_index;
 struct Pose {
     vec4 turn, move_m;
 };
@@ -41,7 +77,6 @@ out Surface {
     vec4 tint;
     vec3 rest_m;
 } surface;
-flat out uint item_of;
 
 vec4 linear_of(vec4 encoded) {
     vec3 low = encoded.rgb / 12.92, high = pow((encoded.rgb + 0.055) / 1.055, vec3(2.4));
@@ -52,12 +87,12 @@ vec3 turned(vec4 turn, vec3 v) {
     return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v);
 }
 
-vec3 stood(Item item, vec3 v) {
-    return vec3(item.cosine * v.x - item.sine * v.y, item.sine * v.x + item.cosine * v.y, v.z);
+vec3 stood(vec3 v) {
+    float cosine = item_numbers.x, sine = item_numbers.y;
+    return vec3(cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z);
 }
 
 void main() {
-    Item item = items[item_index];
     vec3 own_m = vec3(place.xyz) * step_m;
     vec3 normal = vec3(octahedral, 1.0 - abs(octahedral.x) - abs(octahedral.y));
     if (normal.z < 0.0) {
@@ -66,15 +101,15 @@ void main() {
     }
     surface.rest_m = own_m;
     if (is_animated) {
-        Pose pose = poses[item.first_pose + place.w];
+        Pose pose = poses[item_more.x + place.w];
         own_m = turned(pose.turn, own_m) + pose.move_m.xyz;
         normal = turned(pose.turn, normal);
     }
-    surface.relative_m = item.place_m + item.scale * stood(item, own_m);
-    surface.normal = stood(item, normalize(normal));
+    surface.relative_m = item_place.xyz + item_place.w * stood(own_m);
+    surface.normal = stood(normalize(normal));
     surface.uv = uv_low + uv_steps * uv_step;
     surface.tint = linear_of(encoded_tint);
-    item_of = item_index;
+    tell_item();
     gl_Position = clip_from_relative * vec4(surface.relative_m, 1.0);
     gl_Position.xy = gl_Position.xy * part.xy + gl_Position.w * part.zw;
 }
@@ -88,12 +123,12 @@ in Surface {
     vec4 tint;
     vec3 rest_m;
 } surface;
-flat in uint item_of;
 layout(binding = 0) uniform sampler2D picture;
 uniform vec4 base_colour;
 uniform float alpha_cutoff;
 uniform bool has_normals;
 uniform bool is_card;
+uniform bool is_two_sided;
 layout(location = 0) out vec4 colour;
 
 // SHADING_ROUNDS: so many lights more, all round, each with a highlight: a shader that is dear.
@@ -135,24 +170,20 @@ vec3 own_colour(bool is_plain) {
 
 // The paper's routine, and a volume: which places come first, 0..1.
 inline constexpr char kVisibility[] = R"(
-struct Visibility {
-    uint lookup, width, height, depth;
-    float period_m;
-    uint first, pad0, pad1;   // of its values, one a byte
-};
-layout(std430, binding = 2) readonly buffer Visibilities { Visibility visibilities[]; };
-layout(std430, binding = 3) readonly buffer Values { uint values[]; };
+layout(binding = 1) uniform usamplerBuffer visibilities;  // two each: lookup, width, height, depth; period, first of its values
+layout(binding = 2) uniform usamplerBuffer values;        // four in one
 float visibility_of(Item item, vec3 rest_m) {
-    Visibility one = visibilities[item.change];
-    uvec3 size = uvec3(one.width, one.height, one.depth), at;
-    if (one.lookup == 0u) {
-        vec2 turns = vec2(rest_m.x + rest_m.z, rest_m.y + rest_m.z) / (one.period_m * item.grain) + item.shift;
+    uvec4 form = texelFetch(visibilities, int(2u * item.change)), more = texelFetch(visibilities, int(2u * item.change + 1u));
+    uvec3 size = form.yzw, at;
+    float period_m = uintBitsToFloat(more.x);
+    if (form.x == 0u) {
+        vec2 turns = vec2(rest_m.x + rest_m.z, rest_m.y + rest_m.z) / (period_m * item.grain) + item.shift;
         at = uvec3(min(uvec2((turns - floor(turns)) * vec2(size.xy)), size.xy - 1u), 0u);
     } else {
-        at = min(uvec3(max(rest_m / one.period_m, vec3(0.0)) * vec3(size)), size - 1u);
+        at = min(uvec3(max(rest_m / period_m, vec3(0.0)) * vec3(size)), size - 1u);
     }
-    uint place = one.first + (at.z * size.y + at.y) * size.x + at.x;
-    return float(values[place >> 2] >> (8u * (place & 3u)) & 255u) / 255.0;
+    uint place = more.y + (at.z * size.y + at.y) * size.x + at.x;
+    return float(texelFetch(values, int(place >> 2)).r >> (8u * (place & 3u)) & 255u) / 255.0;
 }
 )";
 
@@ -165,8 +196,8 @@ float door() {
     return (float(order) + 0.5) / 64.0;
 }
 void main() {
-    Item item = items[item_of];
-    vec3 own = own_colour(item.is_plain != 0u);
+    Item item = own_item();
+    vec3 own = own_colour(item.is_plain);
     if (item.show == 2u && door() >= item.share) discard;
     if (item.show == 3u && door() < item.share) discard;
     colour = vec4(encoded(own), item.show == 4u ? item.share : 1.0);
@@ -178,10 +209,10 @@ void main() {
 inline constexpr char kTurnMain[] = R"(
 layout(location = 1) out uvec2 ids;  // instance + 1, level
 void main() {
-    Item item = items[item_of];
+    Item item = own_item();
     bool is_along = dot(item.line, vec3(gl_FragCoord.xy, 1.0)) >= 0.0;
     if (item.side != 0u && is_along != (item.side == 1u)) discard;
-    vec3 own = own_colour(item.is_plain != 0u);
+    vec3 own = own_colour(item.is_plain);
     float appears = item.show == 1u ? visibility_of(item, surface.rest_m) : 0.0;
 #if !KEEPS_HIDDEN
     if (appears > item.share) discard;
@@ -195,8 +226,8 @@ void main() {
 inline constexpr char kPaperTurnMain[] = R"(
 layout(location = 1) out vec2 depth_and_id;
 void main() {
-    Item item = items[item_of];
-    vec3 own = own_colour(item.is_plain != 0u);
+    Item item = own_item();
+    vec3 own = own_colour(item.is_plain);
     if (item.show == 1u && visibility_of(item, surface.rest_m) > item.share) discard;
     colour = vec4(encoded(own), 1.0);
     depth_and_id = vec2(1.0 - gl_FragCoord.z, item.show == 1u ? float(item.id) : 0.0);

@@ -10,10 +10,13 @@ inline constexpr char kBuffers[] = R"(
 #define Picture sampler2DMS
 #define Numbers usampler2DMS
 #define fetch(from, at) texelFetch(from, at, gl_SampleID)
+#define fetch_sample(from, at, index) texelFetch(from, at, index)
 #else
 #define Picture sampler2D
 #define Numbers usampler2D
 #define fetch(from, at) texelFetch(from, at, 0)
+#define fetch_sample(from, at, index) texelFetch(from, at, 0)
+#define gl_SampleID 0
 #endif
 uniform ivec2 size_px;
 uniform mat4 camera_old_from_new;

@@ -79,6 +79,13 @@ Result<Turns::Pair*> Turns::pair_for(const gl::Target& target) {
     return &pairs_.emplace(target.samples(), std::move(pair)).first->second;
 }
 
+Result<void> Turns::prepare(const gl::Target& target) {
+    Result<Pair*> pair = pair_for(target);
+    if (!pair) return tl::unexpected(pair.error());
+    (*pair)->combiner.prepare(target, (*pair)->buffers[0], (*pair)->buffers[1]);
+    return {};
+}
+
 uint64_t Turns::bytes(uint32_t samples) const {
     bool is_small = options_.variant == Variant::fsi_paper && options_.is_half_precise;
     uint64_t sample_bytes = 4 + (is_small ? 4 : 8) + 4;

@@ -33,6 +33,9 @@ class Turns {
     // to the card. Fails with Exit::impossible if the renderer has no such buffers.
     Result<uint64_t> draw(const gl::Target& target, const DrawOptions& look, uint64_t frame, std::span<const TurnPart> parts,
                           bool has_before, const Combination& combination, uint64_t& uploaded_bytes);
+    // Makes the buffers for the target, and draws once all that a later frame may be drawn by; the target's picture is lost.
+    // Fails as draw().
+    Result<void> prepare(const gl::Target& target);
     // Of the last draw().
     uint64_t combined_px() const { return combined_px_; }
     uint64_t bytes(uint32_t samples) const;  // of the buffers for targets of so many samples a pixel

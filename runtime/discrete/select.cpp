@@ -80,6 +80,13 @@ bool Selector::is_in_view(const Placement& placement) const {
                        [&](const Side& side) { return glm::dot(side.inwards, from_eye_m) >= -radius_m * side.length; });
 }
 
+bool Selector::is_within_sides(const Placement& placement) const {
+    glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
+    double radius_m = facts_.radius_m * placement.scale;
+    return std::all_of(sides_.begin(), sides_.end(),
+                       [&](const Side& side) { return glm::dot(side.inwards, from_eye_m) >= radius_m * side.length; });
+}
+
 double Selector::error_px(const Placement& placement, uint32_t level) const {
     glm::dvec3 from_eye_m = placement.at(facts_.middle_m) - camera_.position_m;
     double error_m = facts_.levels[level].error_m * placement.scale;

@@ -68,6 +68,8 @@ class Selector {
 
     // False only if nothing of it can be in the picture.
     bool is_in_view(const Placement& placement) const;
+    // True only if no side of the picture cuts it.
+    bool is_within_sides(const Placement& placement) const;
     // Over 1: too coarse now. 0 of level 0.
     double strain(const Placement& placement, uint32_t level) const { return strain(sight_of(placement), level); }
     // The level that an instance wants which has `level`: the coarsest whose strain, now and ahead, allows it; with hysteresis,

@@ -76,6 +76,7 @@ const std::vector<KnownSetting>& known_settings() {
         OVERLOOK_FLAG(Whose::fsi, "wide-depth", remedies.has_wide_depth),
         OVERLOOK_FLAG(Whose::fsi, "weigh-by-phase", remedies.weighs_by_phase),
         OVERLOOK_FLAG(Whose::fsi, "long-ramps", remedies.has_long_ramps),
+        OVERLOOK_FLAG(Whose::fsi, "ease-ends", remedies.eases_ends),
         OVERLOOK_FLAG(Whose::fsi, "split-parities", remedies.splits_parities),
         OVERLOOK_FLAG(Whose::fsi, "split-things", remedies.splits_things),
         OVERLOOK_FLAG(Whose::fsi, "move-instances", remedies.moves_instances),

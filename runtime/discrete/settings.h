@@ -59,6 +59,7 @@ struct Remedies {
     // Each level's ramp lasts as long as the change: where both are seen they are mixed, so none need be whole. With keeps_hidden
     // and weighs_by_phase only.
     bool has_long_ramps = true;
+    bool eases_ends = true;   // a change sets off and comes to rest slowly; with has_long_ramps only
     bool suits_grain = true;  // the visibility's grain is a pixel at least, as far as the instance is
     // Only squares of the picture in which something may be under way are put together of two frames; the others are the newer
     // one. With has_wide_depth only.
@@ -66,7 +67,7 @@ struct Remedies {
     // What was out of view, or what the eye came from elsewhere to (a cut, a teleport), has its level at once: there is nothing
     // that could pop, and no older picture of it.
     bool knows_cuts = true;
-    double softness = 0.5;  // >= 0; share of the ramp in which one place appears; 0: at once
+    double softness = 1;  // >= 0; share of the ramp in which one place appears; 0: at once
 
     bool operator==(const Remedies&) const = default;
 };

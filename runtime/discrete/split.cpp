@@ -39,16 +39,46 @@ double reach_m(const Bunch& bunch, const Placement& placement, const glm::dvec3&
     return glm::dot(shares, bunch.half_m) * placement.scale;
 }
 
+// Which bunches of a placed level are seen; in the chain's own world, where this is soon said.
+class Sight {
+  public:
+    Sight(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, Sides sides)
+        : eye_m_(own(placement, eye_m - placement.translation_m) / placement.scale) {
+        // Vertices are placed in floats, so what is near is as far off as what is far away.
+        for (const Bunch& bunch : bunches) rounding_m_ = std::max(rounding_m_, kRounding * glm::length(bunch.middle_m - eye_m_));
+        for (const glm::dvec3& inwards : sides) {
+            glm::dvec3 normal = own(placement, glm::normalize(inwards));
+            sides_.push_back({normal, glm::max(glm::abs(normal), glm::dvec3(std::numeric_limits<double>::min()))});
+        }
+    }
+    bool sees(const Bunch& bunch) const {
+        glm::dvec3 from_eye_m = bunch.middle_m - eye_m_;
+        return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+            return glm::dot(side.normal, from_eye_m) >= -glm::dot(side.shares, bunch.half_m) - rounding_m_;
+        });
+    }
+
+  private:
+    struct Side {
+        glm::dvec3 normal, shares;
+    };
+    glm::dvec3 eye_m_;
+    double rounding_m_ = 0;
+    std::vector<Side> sides_;
+};
+
 // Of planes that hold an axis through the eye, at an angle from `ahead` to `side`: the one on whose two sides there is as much
 // more of the finer level. NaN if there is none.
-double best_angle(const std::array<std::span<const Bunch>, 2>& finer_and_coarser, const Placement& placement,
+double best_angle(const std::array<std::span<const Bunch>, 2>& finer_and_coarser, const Placement& placement, Sides sides,
                   const glm::dvec3& eye_m, const glm::dvec3& ahead, const glm::dvec3& side) {
     // Up to `last` on the plane's side of greater angles, from `first` on on the other.
     std::vector<std::pair<double, double>> last, first;
     double more = 0;
-    for (double sign : {1.0, -1.0})
-        for (const Bunch& bunch : finer_and_coarser[sign > 0 ? 0 : 1]) {
-            if (std::isinf(bunch.half_m.x)) continue;
+    for (double sign : {1.0, -1.0}) {
+        std::span<const Bunch> bunches = finer_and_coarser[sign > 0 ? 0 : 1];
+        Sight sight(bunches, placement, eye_m, sides);
+        for (const Bunch& bunch : bunches) {
+            if (std::isinf(bunch.half_m.x) || !sight.sees(bunch)) continue;
             glm::dvec3 from_eye_m = placement.at(bunch.middle_m) - eye_m;
             double angle = std::atan2(glm::dot(from_eye_m, side), glm::dot(from_eye_m, ahead));
             double reach = reach_m(bunch, placement, std::cos(angle) * side - std::sin(angle) * ahead);
@@ -57,6 +87,7 @@ double best_angle(const std::array<std::span<const Bunch>, 2>& finer_and_coarser
             first.emplace_back(angle - half, sign * bunch.triangle_count);
             more += sign * bunch.triangle_count;
         }
+    }
     std::sort(last.begin(), last.end()), std::sort(first.begin(), first.end());
     double best = std::nan(""), least = std::numeric_limits<double>::infinity();
     size_t i = 0, k = 0;
@@ -84,7 +115,8 @@ std::vector<Bunch> bunches_of(const Chain& chain, const Level& level) {
 }
 
 std::optional<Split> split_of(std::span<const Bunch> finer, std::span<const Bunch> coarser, const Placement& placement,
-                              const glm::dvec3& middle_m, double radius_m, const glm::dvec3& eye_m, const glm::dvec3& way_m) {
+                              const glm::dvec3& middle_m, double radius_m, const glm::dvec3& eye_m, const glm::dvec3& way_m,
+                              Sides sides) {
     glm::dvec3 towards_m = placement.at(middle_m) - eye_m;
     double distance_m = glm::length(towards_m);
     if (finer.empty() || coarser.empty() || !(distance_m > kNearest * radius_m * placement.scale)) return std::nullopt;
@@ -96,7 +128,7 @@ std::optional<Split> split_of(std::span<const Bunch> finer, std::span<const Bunc
         across = up - glm::dot(up, ahead) * ahead;
     }
     glm::dvec3 side = glm::cross(glm::normalize(across), ahead);
-    double best = best_angle({finer, coarser}, placement, eye_m, ahead, side);
+    double best = best_angle({finer, coarser}, placement, sides, eye_m, ahead, side);
     if (std::isnan(best)) return std::nullopt;
     glm::dvec3 anchor_m = eye_m + distance_m * (std::cos(best) * ahead + std::sin(best) * side);
     return Split{own(placement, anchor_m - placement.translation_m) / placement.scale,
@@ -111,20 +143,26 @@ glm::dvec3 turn_to_eye(Split& split, const Placement& placement, const glm::dvec
     return normal;
 }
 
-uint64_t append_side(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m,
-                     const glm::dvec3& normal, bool is_along, std::vector<TriangleRun>& runs) {
+uint64_t append_seen(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, Sides sides,
+                     std::vector<TriangleRun>& runs) {
     uint64_t count = 0;
     size_t first_own = runs.size();
+    Sight sight(bunches, placement, eye_m, sides);
     for (const Bunch& bunch : bunches) {
-        glm::dvec3 from_eye_m = placement.at(bunch.middle_m) - eye_m;
-        double beyond_m = (is_along ? 1 : -1) * glm::dot(normal, from_eye_m);
-        if (beyond_m < -reach_m(bunch, placement, normal) - kRounding * glm::length(from_eye_m)) continue;
+        if (!sight.sees(bunch)) continue;
         bool goes_on = runs.size() > first_own && runs.back().draw == bunch.draw &&
                        runs.back().first_index + runs.back().index_count == bunch.first_index;
         if (!goes_on) runs.push_back({bunch.draw, bunch.first_index, 0});
         runs.back().index_count += 3 * bunch.triangle_count;
         count += bunch.triangle_count;
     }
+    return count;
+}
+
+uint64_t seen_count(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, Sides sides) {
+    uint64_t count = 0;
+    Sight sight(bunches, placement, eye_m, sides);
+    for (const Bunch& bunch : bunches) count += sight.sees(bunch) ? bunch.triangle_count : 0;
     return count;
 }
 

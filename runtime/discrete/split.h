@@ -39,18 +39,24 @@ struct Split {
     glm::dvec3 anchor_m{0}, normal{0};  // normal: of length 1, as it was last
 };
 
-// Such that even and odd frames draw about as many triangles. way_m: where the eye goes; the plane holds this direction as well
-// as it can, and then divides the thing in the next frame where it does in this one. None if the eye lies within 1.2 radii of the
-// middle.
+// Planes through the eye, by what points from them, in the world: something is seen if a part of it lies on that side of each.
+using Sides = std::span<const glm::dvec3>;
+
+// Such that even and odd frames draw about as many triangles of what is seen. way_m: where the eye goes; the plane holds this
+// direction as well as it can, and then divides the thing in the next frame where it does in this one. None if the eye lies
+// within 1.2 radii of the middle, or nothing is seen.
 std::optional<Split> split_of(std::span<const Bunch> finer, std::span<const Bunch> coarser, const Placement& placement,
-                              const glm::dvec3& middle_m, double radius_m, const glm::dvec3& eye_m, const glm::dvec3& way_m);
+                              const glm::dvec3& middle_m, double radius_m, const glm::dvec3& eye_m, const glm::dvec3& way_m,
+                              Sides sides = {});
 
 // The plane's normal in the world, of length 1, now that the eye is there; split keeps it.
 glm::dvec3 turn_to_eye(Split& split, const Placement& placement, const glm::dvec3& eye_m);
 
-// Appends what may be seen on the side to which normal points (else: away from which). Returns how many triangles.
-uint64_t append_side(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m,
-                     const glm::dvec3& normal, bool is_along, std::vector<TriangleRun>& runs);
+// Appends the bunches that may be seen, as few runs. Returns how many triangles.
+uint64_t append_seen(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, Sides sides,
+                     std::vector<TriangleRun>& runs);
+// The same, only counted.
+uint64_t seen_count(std::span<const Bunch> bunches, const Placement& placement, const glm::dvec3& eye_m, Sides sides);
 
 // (x, y, 1) of a pixel in gl_FragCoord's way times this is 0 on the plane, and above where its normal points; for a picture of so
 // many pixels and a normal to the right, up and forward.

@@ -27,6 +27,14 @@ double visible_share(const Transition& transition, uint32_t level) {
     return level == transition.from ? visible_share_of_old(transition.phase) : 0;
 }
 
+double eased(double phase) {
+    constexpr double kSettingOff = 1.0 / 8, kPace = 1 / (1 - kSettingOff);
+    double from_end = std::clamp(std::min(phase, 1 - phase), 0.0, 0.5);
+    double share =
+        from_end < kSettingOff ? kPace * from_end * from_end / (2 * kSettingOff) : kPace * (from_end - kSettingOff / 2);
+    return phase < 0.5 ? share : 1 - share;
+}
+
 Transition step(const Transition& now, uint32_t wanted, double dt_s, double fade_s, bool is_one_by_one) {
     Transition next = now;
     if (next.is_resting()) {

@@ -50,6 +50,7 @@ void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
     json["list_ms"] = planting.list_ms;
     json["warp_ms"] = planting.warp_ms;
     json["warp_threads"] = planting.threads;
+    json["warped_by_card"] = planting.is_warped_by_card;
     json["latency_frames"] = planting.latency_frames;
 }
 

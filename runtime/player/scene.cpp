@@ -190,7 +190,9 @@ view::ErrorBudget budget_of(const Options& options, Method method, double least_
 }
 
 double cost_of(const Options& options, const FrameRecord& frame) {
-    return options.triangles > 0 ? double(frame.triangle_count) : frame.refine_ms + frame.draw_ms;
+    if (options.triangles <= 0) return frame.refine_ms + frame.draw_ms;
+    // What chains take for a change of level is over soon.
+    return double(frame.chain ? frame.chain->settled_triangle_count : frame.triangle_count);
 }
 
 void settle(Plan& plan, const Scene& scene) {

@@ -70,8 +70,7 @@ class PlantingSubject : public Subject {
         wanted.shows_rings = wanted.shows_rings != style.shows_sources;
         wanted.is_pipelined = wanted.is_pipelined || style.is_pipelined;
         if (frames_ != nullptr) {
-            if (frames_->options() != wanted) frames_->change(wanted);
-            return {};
+            return frames_->options() != wanted ? frames_->change(wanted) : Result<void>();
         }
         auto made = wang_ldi::FrameDrawer::make(land_->planted(), land_->land(), wanted, streaming_);
         if (!made) return tl::unexpected(made.error());
@@ -96,7 +95,7 @@ Result<std::unique_ptr<Subject>> read_planting(PlantingLayer planting, const Lay
     }
     auto land = wang_ldi::PlantedLand::read(std::move(planting.file), std::move(on), planting.planting, planting.scene_path);
     if (!land) return tl::unexpected(land.error());
-    if (layer.planting.geometry_m > 0) {
+    if (layer.planting.geometry_m > 0 || (layer.planting.geometry != wang_ldi::NearGeometry::none && (*land)->has_models())) {
         if (Result<void> models = (*land)->read_models(); !models) return tl::unexpected(models.error());
     }
     return std::make_unique<PlantingSubject>(std::move(*land), layer,

@@ -38,6 +38,7 @@ struct Eye {
 template <Hiding hiding>
 class PictureTarget {
   public:
+    static constexpr bool kIsByDepth = hiding == Hiding::by_depth;
     explicit PictureTarget(Warped& picture) : picture_(&picture) {}
     int width_px() const { return int(picture_->width_px); }
     int height_px() const { return int(picture_->height_px); }
@@ -59,6 +60,7 @@ class PictureTarget {
 template <class Target>
 class Brush {
   public:
+    static constexpr bool kIsByDepth = Target::kIsByDepth;  // the order does not matter
     Brush(const Eye& eye, const Target& target, WarpCounts& counts)
         : target_(target), counts_(counts), near_m_(eye.near_m), middle_px_(eye.middle_px) {}
 

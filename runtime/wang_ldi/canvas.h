@@ -43,6 +43,7 @@ class Canvas {
 template <Hiding hiding>
 class CanvasTarget {
   public:
+    static constexpr bool kIsByDepth = hiding == Hiding::by_depth;
     explicit CanvasTarget(Canvas& canvas) : canvas_(&canvas) {}
     int width_px() const { return int(canvas_->width_px()); }
     int height_px() const { return int(canvas_->height_px()); }

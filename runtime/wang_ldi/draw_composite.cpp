@@ -63,12 +63,15 @@ Result<Composite> Composite::make() {
     return made;
 }
 
+void Composite::fit(uint32_t width_px, uint32_t height_px) {
+    if (width_px == width_px_ && height_px == height_px_) return;
+    width_px_ = width_px, height_px_ = height_px;
+    colours_ = make_plane(GL_RGBA8, width_px_, height_px_);
+    depths_ = make_plane(GL_R32F, width_px_, height_px_);
+}
+
 uint64_t Composite::take(const Warped& picture) {
-    if (picture.width_px != width_px_ || picture.height_px != height_px_) {
-        width_px_ = picture.width_px, height_px_ = picture.height_px;
-        colours_ = make_plane(GL_RGBA8, width_px_, height_px_);
-        depths_ = make_plane(GL_R32F, width_px_, height_px_);
-    }
+    fit(picture.width_px, picture.height_px);
     auto width = GLsizei(width_px_), height = GLsizei(height_px_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTextureSubImage2D(colours_.id(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture.colours.data());

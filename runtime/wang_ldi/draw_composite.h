@@ -23,6 +23,11 @@ class Composite {
 
     // Sends a picture to the card; what is drawn from now on. Returns how many bytes.
     uint64_t take(const Warped& picture);
+    // Room for a picture that shaders write: colours (RGBA8, alpha 0 where nothing is) and depths in metres (R32F), top row
+    // first.
+    void fit(uint32_t width_px, uint32_t height_px);
+    GLuint colours() const { return colours_.id(); }
+    GLuint depths() const { return depths_.id(); }
     // Draws it into the target, which has its size and holds what was drawn for the camera (whose near plane depths are by), and
     // resolves. haze_per_m: of the air before it, as terrain::Drawing's; 0: none.
     void draw(const gl::Target& target, const view::Camera& camera, double haze_per_m) const;

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "formats/parallel.h"
+#include "runtime/gl/context.h"
 #include "runtime/terrain/near_plane.h"
 #include "runtime/wang_ldi/plain.h"
 
@@ -57,21 +58,36 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const PlantedField& plant
     Result<Composite> composite = Composite::make();
     if (!composite) return tl::unexpected(composite.error());
     made->composite_.emplace(std::move(*composite));
+    Result<gl::Renderer> renderer = gl::describe_current_context();
+    if (!renderer) return tl::unexpected(renderer.error());
+    made->is_software_ = renderer->is_software;
+    if (Result<void> ready = made->change(options); !ready) return tl::unexpected(ready.error());
 
     const ImageSet& set = planted.images().set();
     const ImageStore& images = *made->store_;
-    made->far_ = FarColours::of(set, [&](uint64_t index) {
+    made->far_ = FarImages(planted.textures() ? *planted.textures() : textures_of_images(set, [&](uint64_t index) {
         const StoredImage* image = images.at(index);
         return image == nullptr ? nullptr : &image->ldi;
-    });
-    Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, 1));
+    }));
+    Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, 1, made->far_.side_px()));
     if (!field) return tl::unexpected(field.error());
     return made;
 }
 
-void FrameDrawer::change(const FrameOptions& options) {
+Result<void> FrameDrawer::change(const FrameOptions& options) {
     wait();
     options_ = options;
+    if (!is_warped_by_card()) splats_.reset();
+    if (!is_warped_by_card() || splats_) return {};
+    Result<Splats> splats = Splats::make();
+    if (!splats) return tl::unexpected(splats.error());
+    splats_.emplace(std::move(*splats));
+    return {};
+}
+
+bool FrameDrawer::is_warped_by_card() const {
+    if (options_.variant == Variant::paper || options_.is_exact || !options_.is_by_depth) return false;
+    return options_.warper == Warper::card || (options_.warper == Warper::by_renderer && !is_software_);
 }
 
 void FrameDrawer::wait() {
@@ -83,7 +99,7 @@ Result<void> FrameDrawer::decide(const view::Camera& camera, double dt_s, double
     size_t ready = shown_, next = 1 - shown_;
     if (has_next_) ready = 1 - shown_, next = shown_;
     const Warped& done = slots_[ready].picture;
-    bool is_late = options_.is_pipelined && done.width_px == camera.width_px && done.height_px == camera.height_px;
+    bool is_late = options_.is_pipelined && !splats_ && done.width_px == camera.width_px && done.height_px == camera.height_px;
     if (Result<void> prepared = prepare(camera, dt_s, morph, slots_[next]); !prepared) return prepared;
     before_ = camera;
     if (!is_late) {
@@ -102,8 +118,8 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     slot.counts = {};
     slot.origin_m = origin_of(land_, camera);
     slot.camera = with_clear_near_plane(*land_.terrain, land_.is_plain, camera);
-    Result<Field> field =
-        Field::of(planted_.parts(), field_options_of(planted_.images().set(), field_options(), view::focal_px(slot.camera)));
+    Result<Field> field = Field::of(planted_.parts(), field_options_of(planted_.images().set(), field_options(),
+                                                                       view::focal_px(slot.camera), far_.side_px()));
     if (!field) return tl::unexpected(field.error());
     slot.field.emplace(std::move(*field));
 
@@ -123,10 +139,11 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     return {};
 }
 
-// Without models nothing is drawn as geometry.
+// Without models nothing is drawn as geometry; nor by a processor unless it was asked for.
 FrameOptions FrameDrawer::field_options() const {
     FrameOptions options = options_;
-    if (land_.plants == nullptr) options.geometry_m = 0;
+    bool is_asked = options.geometry == NearGeometry::always || options.geometry_m > 0 || !is_software_;
+    if (land_.plants == nullptr || !is_asked) options.geometry = NearGeometry::none;
     return options;
 }
 
@@ -171,10 +188,25 @@ void FrameDrawer::look_ahead(Slot& slot, double dt_s) {
 }
 
 const StoredImage* FrameDrawer::image_at(uint64_t index) const {
-    return options_.shows_rings ? rings_.at(index) : store_->at(index);
+    const StoredImage* ring = options_.shows_rings ? rings_.at(index) : nullptr;
+    return ring != nullptr ? ring : store_->at(index);
+}
+
+// By the graphics card, as the frame is drawn.
+void FrameDrawer::splat(Slot& slot) {
+    Clock clock;
+    PreparedAt at = [this](uint64_t index) {
+        const StoredImage* image = image_at(index);
+        return image == nullptr ? nullptr : &image->prepared;
+    };
+    SplatCounts drawn = splats_->draw(slot.camera, *slot.field, slot.list, at, options_.fills_holes, &far_, *composite_);
+    slot.counts.warp = {}, slot.counts.warp.samples = drawn.samples, slot.counts.warp.images_missing = drawn.images_missing;
+    slot.counts.uploaded_bytes += drawn.uploaded_bytes, slot.counts.is_warped_by_card = true;
+    slot.counts.warp_ms = clock.elapsed_ms();
 }
 
 void FrameDrawer::warp(Slot& slot) {
+    if (splats_) return;
     Clock clock;
     bool is_paper = options_.variant == Variant::paper;
     if (is_paper || options_.is_exact) {
@@ -205,8 +237,11 @@ void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& loo
     land_.drawing->draw(target, slot.cut, local, look);
     slot.counts.plants = {};
     if (land_.plants != nullptr) slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants, options_.error_px);
-    slot.counts.uploaded_bytes =
-        land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes + composite_->take(slot.picture);
+    slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes;
+    if (splats_)
+        splat(slot);
+    else
+        slot.counts.uploaded_bytes += composite_->take(slot.picture);
     composite_->draw(target, slot.camera, land_.drawing->haze_per_m(look));
 }
 

@@ -12,6 +12,7 @@
 #include "runtime/terrain/refine.h"
 #include "runtime/wang_ldi/draw_composite.h"
 #include "runtime/wang_ldi/draw_plants.h"
+#include "runtime/wang_ldi/draw_splats.h"
 #include "runtime/wang_ldi/fast_warp.h"
 #include "runtime/wang_ldi/image_store.h"
 #include "runtime/wang_ldi/planted_field.h"
@@ -56,7 +57,8 @@ struct FrameCounts {
     stream::Counts stream;
     uint32_t latency_frames = 0;  // so many frames ago the picture's camera was given
     uint32_t threads = 1;
-    double list_ms = 0, warp_ms = 0;  // warp_ms: beside other work, of one that is pipelined
+    bool is_warped_by_card = false;   // of warp then only `samples`, of all that is drawn, and images_missing are counted
+    double list_ms = 0, warp_ms = 0;  // warp_ms: beside other work, of one that is pipelined; of the card until it has its orders
     double predicted_error_px = 0;    // of the terrain, and of tiles off it
 };
 
@@ -64,15 +66,15 @@ struct FrameCounts {
 // picture. A context must be current.
 class FrameDrawer {
   public:
-    // Fails as ImageStore::open, Composite::make and Field::of.
+    // Fails as ImageStore::open, Composite::make, Splats::make, describe_current_context and Field::of.
     static Result<std::unique_ptr<FrameDrawer>> make(const PlantedField& planted, const Land& land, const FrameOptions& options,
                                                      const ImageStreaming& streaming);
     FrameDrawer(const FrameDrawer&) = delete;
     FrameDrawer& operator=(const FrameDrawer&) = delete;
     ~FrameDrawer();
 
-    // From the next frame on. Images stay.
-    void change(const FrameOptions& options);
+    // From the next frame on. Images stay. Fails as Splats::make.
+    Result<void> change(const FrameOptions& options);
     const FrameOptions& options() const { return options_; }
 
     // morph: as Refiner::cut_by_pixels. Fails if it waits for an image that cannot be read.
@@ -104,6 +106,8 @@ class FrameDrawer {
     FrameOptions field_options() const;
     void look_ahead(Slot& slot, double dt_s);
     void warp(Slot& slot);
+    bool is_warped_by_card() const;
+    void splat(Slot& slot);
     const StoredImage* image_at(uint64_t index) const;
     void wait();
 
@@ -113,7 +117,9 @@ class FrameDrawer {
     ImageStreaming streaming_;
     std::unique_ptr<ImageStore> store_;
     std::optional<Composite> composite_;
-    FarColours far_;
+    std::optional<Splats> splats_;  // once they were asked for
+    bool is_software_ = false;      // the renderer
+    FarImages far_;
     RingImages rings_;
     FastWarp fast_;
     FieldList ahead_;

@@ -1,6 +1,8 @@
 #include "runtime/wang_ldi/draw_land.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "formats/mapped_file.h"
 #include "runtime/gl/png.h"
@@ -61,6 +63,14 @@ Result<std::unique_ptr<PlantedLand>> PlantedLand::read(container::Reader file, s
     return made;
 }
 
+bool PlantedLand::has_models() const {
+    auto is_there = [&](const std::string& model) {
+        std::error_code unused;
+        return std::filesystem::is_regular_file(scene::path_in_scene(scene_path_, model), unused);
+    };
+    return !described_.models.empty() && std::all_of(described_.models.begin(), described_.models.end(), is_there);
+}
+
 Result<void> PlantedLand::read_models() {
     size_t wanted = planted_->planting().models.size();
     if (described_.models.empty())
@@ -86,7 +96,7 @@ Result<void> PlantedLand::upload() {
     if (!drawing) return tl::unexpected(drawing.error());
     drawing_.emplace(std::move(*drawing));
     if (models_.empty()) return {};
-    Result<Plants> plants = Plants::make(models_, !planted_->images().set().has_normals);
+    Result<Plants> plants = Plants::make(models_, planted_->planting(), planted_->images().set().to_sun);
     if (!plants) return tl::unexpected(plants.error());
     plants_.emplace(std::move(*plants));
     return {};

@@ -23,6 +23,8 @@ class PlantedLand {
     // `planting` names. Needs no OpenGL. Fails as PlantedField::open, MappedFile::open and decode_png.
     static Result<std::unique_ptr<PlantedLand>> read(container::Reader file, std::optional<terrain::Terrain> terrain,
                                                      const scene::Planting& planting, const std::string& scene_path);
+    // Whether all chains that `planting` names are there to be read; false if it names none.
+    bool has_models() const;
     // The chains that `planting` names, for drawing plants as geometry, once. Fails as discrete::read, and with Exit::bad_input:
     //   "field.json: names 3 models, and meadow.ovl plants 11"
     //   "field.json: names no models of what meadow.ovl plants; they are chains of levels (bake-lod discrete)"

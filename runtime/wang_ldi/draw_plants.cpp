@@ -1,6 +1,10 @@
 #include "runtime/wang_ldi/draw_plants.h"
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "runtime/wang_ldi/baked_light.h"
+#include "runtime/wang_ldi/canopy.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -28,25 +32,68 @@ discrete::FrameList listed(const discrete::ChainFacts& facts, const PlantPlaces&
 // As discrete's own of one picture, without its light.
 constexpr char kUnlitMain[] = R"(
 void main() {
-    colour = vec4(encoded(unlit_colour(items[item_of].is_plain != 0u)), 1.0);
+    colour = vec4(encoded(unlit_colour(own_item().is_plain)), 1.0);
 }
 )";
 
+// As samples are lit when they are baked (tools/bake/wang_ldi/shade.h), but for shadows, which are what they are on average at a
+// height.
+constexpr char kSunlitMain[] = R"(
+uniform vec3 to_sun, sun, sky, ground;
+uniform float transmission, foot_m, canopy_top_m;
+uniform vec2 open[32];
+
+vec3 around(vec3 normal, float sky_share) {
+    return (sky * (0.5 + 0.5 * normal.z) + ground * (0.5 - 0.5 * normal.z)) * sky_share;
+}
+
+void main() {
+    Item item = items[item_of];
+    vec3 own = unlit_colour(item.is_plain != 0u);
+    vec3 face = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
+    if (dot(face, surface.relative_m) > 0.0) face = -face;
+    vec3 normal = has_normals && item.is_plain == 0u ? normalize(surface.normal) : face;
+    if (dot(normal, face) < 0.0) normal = is_card ? reflect(normal, face) : -normal;
+    float place = clamp(item.scale * (surface.rest_m.z + foot_m) / canopy_top_m, 0.0, 1.0) * 31.0;
+    vec2 shares = mix(open[int(place)], open[min(int(place) + 1, 31)], fract(place));
+    float facing = dot(normal, to_sun);
+    vec3 light = around(normal, shares.y) + sun * (max(0.0, facing) * shares.x);
+    if (is_two_sided) light += transmission * (around(-normal, shares.y) + sun * (max(0.0, -facing) * shares.x));
+    colour = vec4(encoded(own * light), 1.0);
+}
+)";
+
+void set_light(const gl::Program& program, const discrete::Chain& chain, const Canopy& canopy, const glm::dvec3& to_sun) {
+    BakedLight light;
+    glm::vec3 towards(to_sun);
+    program.use();
+    glUniform3fv(program.at("to_sun"), 1, glm::value_ptr(towards));
+    glUniform3fv(program.at("sun"), 1, glm::value_ptr(light.sun));
+    glUniform3fv(program.at("sky"), 1, glm::value_ptr(light.sky));
+    glUniform3fv(program.at("ground"), 1, glm::value_ptr(light.ground));
+    glUniform1f(program.at("transmission"), light.transmission);
+    glUniform1f(program.at("foot_m"), float(chain.origin_m.z));
+    glUniform1f(program.at("canopy_top_m"), float(std::max(canopy.top_m, 1e-6)));
+    glUniform2fv(program.at("open"), GLsizei(kCanopySteps), glm::value_ptr(canopy.open[0]));
+}
+
 }  // namespace
 
-Result<Plants> Plants::make(std::span<const discrete::Chain> chains, bool is_lit) {
+Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun) {
     Plants made;
+    bool is_lit = to_sun != glm::dvec3(0);
+    Canopy canopy;
+    if (is_lit) canopy = canopy_of(planting, chains, to_sun);
     for (const discrete::Chain& chain : chains) {
         Result<discrete::Drawing> drawing = discrete::Drawing::make(chain);
         if (!drawing) return tl::unexpected(drawing.error());
         auto model = std::make_unique<Model>();
         model->facts = discrete::facts_of(chain);
         model->drawing = std::move(*drawing);
-        if (!is_lit) {
-            Result<gl::Program> unlit = model->drawing.program("unlit plants", "", kUnlitMain);
-            if (!unlit) return tl::unexpected(unlit.error());
-            model->unlit.emplace(std::move(*unlit));
-        }
+        Result<gl::Program> program = model->drawing.program("plants", "", is_lit ? kSunlitMain : kUnlitMain);
+        if (!program) return tl::unexpected(program.error());
+        if (is_lit) set_light(*program, chain, canopy, to_sun);
+        model->program.emplace(std::move(*program));
         made.models_.push_back(std::move(model));
     }
     return made;
@@ -66,8 +113,7 @@ PlantCounts Plants::draw(const gl::Target& target, const view::Camera& camera, s
         discrete::DrawList list =
             discrete::draw_list(model.drawing.layout(), model.drawing.chain(), frame, by_model[m].placements, camera, 0);
         counts.uploaded_bytes += model.buffers.fill(list);
-        const gl::Program& program = model.unlit ? *model.unlit : model.drawing.one_picture();
-        model.drawing.draw_calls(program, model.buffers, list, list.whole_calls, options);
+        model.drawing.draw_calls(*model.program, model.buffers, list, list.whole_calls, options);
         counts.draw_call_count += list.whole_calls.size();
     }
     return counts;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/discrete.h"
+#include "formats/wang_tiles.h"
 #include "runtime/discrete/draw.h"
 #include "runtime/gl/target.h"
 #include "runtime/wang_ldi/plants.h"
@@ -23,9 +24,10 @@ struct PlantCounts {
 // A context must be current.
 class Plants {
   public:
-    // chains: one a model of the planting, which must outlive this. is_lit: by a light of the scene's; else in their own colours,
-    // as images are whose colours are unlit. Fails as discrete::Drawing::make.
-    static Result<Plants> make(std::span<const discrete::Chain> chains, bool is_lit);
+    // chains: one a model of the planting, which must outlive this. to_sun: of the images, whose light they are drawn in: sun and
+    // sky as far as they are seen amid the planting; 0: in their own colours, as images are whose colours are unlit. Fails as
+    // discrete::Drawing::make.
+    static Result<Plants> make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun);
 
     // Draws over what the target holds, by depth; does not resolve. error_px: of the target's pixels; 0: the finest levels. part:
     // of the camera's picture, that the target shows; the whole of it if not said.
@@ -37,7 +39,7 @@ class Plants {
     struct Model {
         discrete::ChainFacts facts;
         discrete::Drawing drawing;
-        std::optional<gl::Program> unlit;
+        std::optional<gl::Program> program;
         discrete::ListBuffers buffers;
     };
     std::vector<std::unique_ptr<Model>> models_;

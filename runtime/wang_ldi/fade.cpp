@@ -13,6 +13,17 @@ uint32_t share_of(double value, double from, double to) {
     return uint32_t((value - from) / (to - from) * kWhole);
 }
 
+void add_far_rungs(const LadderOptions& options, double texture_from_m, std::vector<Rung>& wanted) {
+    if (std::isinf(texture_from_m)) return;
+    double from_m = options.texel_from_m;
+    for (uint32_t level = 0; level == 0 || from_m < kFarthest_m; ++level, from_m *= 2) {
+        bool is_texture = level < options.texture_levels;
+        uint32_t own = is_texture ? level : level - options.texture_levels + 1;
+        double at_m = level == 0 ? texture_from_m : std::max(from_m, texture_from_m);
+        wanted.push_back({is_texture ? Stage::texture : Stage::colour, own, at_m, 0, 0});
+    }
+}
+
 }  // namespace
 
 Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
@@ -23,8 +34,7 @@ Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
     for (uint32_t level = first; level < set.levels.size(); ++level)
         wanted.push_back(
             {Stage::ldi, level, level == first ? images_from_m : double(set.levels[level].nearest_m) / options.coarser, 0, 0});
-    wanted.push_back({Stage::texture, 0, std::max(options.texture_from_m, images_from_m), 0, 0});
-    wanted.push_back({Stage::colour, 0, std::max(options.colour_from_m, options.texture_from_m), 0, 0});
+    add_far_rungs(options, std::max(options.texture_from_m, images_from_m), wanted);
     wanted.push_back({Stage::bare, 0, options.radius_m, 0, 0});
 
     Ladder ladder;

@@ -15,13 +15,15 @@
 
 namespace overlook::wang_ldi {
 
-// From near to far. texture: a picture of the tile as it looks from one side; colour: its mean; bare: nothing.
+// From near to far. texture: a picture of the tile as it looks from one side; colour: a mean of several tiles; bare: nothing.
 enum class Stage : uint8_t { geometry, ldi, texture, colour, bare };
 
 struct Rung {
     Stage stage = Stage::ldi;
-    uint32_t level = 0;  // of images; 0 for other stages
-    double from_m = 0;   // up to the next rung's
+    // Of images; of textures how often their sides are halved; of colours the binary logarithm of the tiles along a texel's side,
+    // 1 or more; else 0.
+    uint32_t level = 0;
+    double from_m = 0;  // up to the next rung's
     // Within these the rung before gives way to this one; from_m in their middle, or all three the same.
     double fade_from_m = 0, fade_to_m = 0;
 };
@@ -34,13 +36,18 @@ struct Ladder {
 struct LadderOptions {
     double geometry_to_m = 0;  // nearer tiles are drawn as what is planted on them; 0: none
     double texture_from_m = std::numeric_limits<double>::infinity();
-    double colour_from_m = std::numeric_limits<double>::infinity();  // at least texture_from_m
-    double radius_m = std::numeric_limits<double>::infinity();       // nothing is drawn beyond
+    // From here on a texel of the finest texture is no wider than a pixel, and of coarser ones twice, four times as far.
+    double texel_from_m = std::numeric_limits<double>::infinity();
+    uint32_t texture_levels = 6;                                // pictures of a texture, the last of which is one texel; 1..13
+    double radius_m = std::numeric_limits<double>::infinity();  // nothing is drawn beyond
     // Of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other.
     double fade_share = 0.05;
     double coarser = 1;  // > 0; levels begin so much nearer than the set has them, whose samples are so much wider in the picture
 };
-// The levels of the set that lie between. Rungs that would have no room are left out.
+// The levels of the set that lie between, their distances as the set has them but for coarser; then textures, each where its texels
+// are a pixel wide, and colours, so far that there is no end of them to be seen (kFarthest_m). Rungs that would have no room are
+// left out.
+constexpr double kFarthest_m = 2e7;
 Ladder ladder_of(const ImageSet& set, const LadderOptions& options);
 
 constexpr uint32_t kWhole = 256;  // what shares add up to

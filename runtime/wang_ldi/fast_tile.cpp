@@ -51,8 +51,7 @@ void FastTile<hiding>::draw(const Item& item) {
     if (!scene_.bounds.may_hold(low_m, high_m, wide)) return;
     glm::dvec2 eye_share = (glm::dvec2(scene_.eye.position_m) - corner_m) / side_m;
     if (item.half_count == 0) {
-        if (scene_.far != nullptr && item.texels_px > 0)
-            TexelPainter<Painting>(scene_.eye, field, *scene_.far, item, brush_).draw_all(scene_.list.shown_of(item), eye_share);
+        if (far_ && item.texels_px > 0) far_->draw(item);
         return;
     }
     choose(item, corner_m);
@@ -65,7 +64,8 @@ void FastTile<hiding>::draw(const Item& item) {
 template <Hiding hiding>
 void FastTile<hiding>::choose(const Item& item, const glm::dvec2& corner_m) {
     const Field& field = scene_.field;
-    images_.clear(), textures_.clear(), texels_.reset(), all_.clear();
+    images_.clear(), textures_.clear(), all_.clear();
+    if (far_) far_->begin(item);
     for (const Shown& shown : scene_.list.shown_of(item)) {
         const Rung& rung = field.ladder().rungs[shown.rung];
         if (rung.stage == Stage::ldi) {
@@ -74,9 +74,8 @@ void FastTile<hiding>::choose(const Item& item, const glm::dvec2& corner_m) {
             if (ldi == nullptr) continue;
             SplatRule rule{1, field.options().widens_splats};
             all_.push_back(&images_.emplace_back(scene_.eye, *field.parts().images, *ldi, rung.level, rule, corner_m, tools_));
-        } else if (rung.stage != Stage::geometry && scene_.far != nullptr) {
-            if (!texels_) texels_.emplace(scene_.eye, field, *scene_.far, item, brush_);
-            all_.push_back(&textures_.emplace_back(*texels_, item.texels_px, shown.direction));
+        } else if (rung.stage != Stage::geometry && far_) {
+            all_.push_back(&textures_.emplace_back(*far_, far_->picture(shown)));
         } else {
             continue;
         }
@@ -95,7 +94,7 @@ void FastTile<hiding>::draw_half(const Item& item, const Half& half, const glm::
     if (hiding == Hiding::by_order && (all_.size() != 1 || images_.empty() || !is_whole(*all_[0])))
         return paint_piece(places, piece, all_);  // so that the order holds between images too
     for (FastColumns<hiding>& columns : images_) draw_rows(columns, piece, eye_share);
-    for (TexelColumns<Painting>& columns : textures_) {
+    for (FarColumns<Painting>& columns : textures_) {
         Columns* all[] = {&columns};
         paint_piece(places, piece, all);
     }

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/wang_ldi/far_painter.h"
 #include "runtime/wang_ldi/fast_columns.h"
 #include "runtime/wang_ldi/fast_warp.h"
 #include "runtime/wang_ldi/in_picture.h"
-#include "runtime/wang_ldi/texel_painter.h"
 
 namespace overlook::wang_ldi {
 
@@ -19,7 +19,7 @@ struct FastScene {
     const Field& field;
     const FieldList& list;
     const PreparedAt& image_at;
-    const FarColours* far;
+    const FarImages* far;
     double highest_step_m;  // of any level
 };
 
@@ -43,7 +43,9 @@ template <Hiding hiding>
 class FastTile {
   public:
     FastTile(const FastScene& scene, FastTools& tools)
-        : scene_(scene), tools_(tools), brush_(scene.eye, CanvasTarget<hiding>(*tools.canvas), tools.counts) {}
+        : scene_(scene), tools_(tools), brush_(scene.eye, CanvasTarget<hiding>(*tools.canvas), tools.counts) {
+        if (scene.far != nullptr) far_.emplace(scene.eye, scene.bounds, scene.field, *scene.far, brush_);
+    }
 
     void draw(const Item& item);
 
@@ -58,8 +60,8 @@ class FastTile {
     Painting brush_;
     TileFades fades_;
     std::deque<FastColumns<hiding>> images_;  // of the item that is drawn
-    std::optional<TexelPainter<Painting>> texels_;
-    std::deque<TexelColumns<Painting>> textures_;
+    std::optional<FarPainter<Painting>> far_;
+    std::deque<FarColumns<Painting>> textures_;
     std::vector<Columns*> all_;
 };
 

@@ -99,7 +99,7 @@ FastWarp::FastWarp() : threads_(std::make_unique<Threads>()) {}
 FastWarp::~FastWarp() = default;
 
 WarpCounts FastWarp::warp(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-                          const FastOptions& options, Warped& picture, const FarColours* far) {
+                          const FastOptions& options, Warped& picture, const FarImages* far) {
     picture.width_px = camera.width_px, picture.height_px = camera.height_px;
     picture.colours.resize(size_t(camera.width_px) * camera.height_px), picture.depth_m.resize(picture.colours.size());
     threads_->fit(std::max(1u, thread_count()), camera, options.uses_vectors);

@@ -8,7 +8,7 @@
 
 #include <memory>
 
-#include "runtime/wang_ldi/far_colours.h"
+#include "runtime/wang_ldi/far_images.h"
 #include "runtime/wang_ldi/field.h"
 #include "runtime/wang_ldi/prepared_ldi.h"
 #include "runtime/wang_ldi/warp.h"
@@ -33,7 +33,7 @@ class FastWarp {
     // are skipped, so fewer samples are counted; samples_drawn and pixels_written are the same. Same picture and counts with any
     // number of threads. Memory: 8 bytes for each pixel and thread, kept.
     WarpCounts warp(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-                    const FastOptions& options, Warped& picture, const FarColours* far = nullptr);
+                    const FastOptions& options, Warped& picture, const FarImages* far = nullptr);
     uint64_t holes_filled() const { return holes_filled_; }  // of the last picture
 
   private:

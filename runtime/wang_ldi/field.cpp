@@ -1,6 +1,7 @@
 #include "runtime/wang_ldi/field.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace overlook::wang_ldi {
@@ -22,16 +23,19 @@ Result<void> check(const FieldOptions& options) {
         return bad_command("a field's blocks of {} of their distance: above 0 and up to 0.5 is needed", options.block_share);
     if (options.most_pieces_log2 > kMostPieces_log2)
         return bad_command("tiles in 2^{} pieces a side: 2^{} at most", options.most_pieces_log2, kMostPieces_log2);
-    if (options.texture_side_px < 1 || options.texture_side_px > kMostTextureSide_px)
-        return bad_command("textures of {} pixels a side: 1 to {} are needed", options.texture_side_px, kMostTextureSide_px);
+    if (!std::has_single_bit(options.texture_side_px) || options.texture_side_px > kMostTextureSide_px)
+        return bad_command("textures of {} pixels a side: a power of two up to {} is needed", options.texture_side_px,
+                           kMostTextureSide_px);
+    if (options.ladder.texture_levels != uint32_t(std::bit_width(options.texture_side_px)))
+        return bad_command("textures of {} pixels a side with {} levels", options.texture_side_px, options.ladder.texture_levels);
     if (!(options.ladder.coarser > 0 && std::isfinite(options.ladder.coarser)))
         return bad_command("a field's levels {} times nearer: above 0 is needed", options.ladder.coarser);
     if (!(options.displacement_px > 0)) return bad_command("a displacement of {} px: above 0 is needed", options.displacement_px);
     const LadderOptions& ladder = options.ladder;
-    if (!(ladder.radius_m > 0 && ladder.geometry_to_m >= 0 && ladder.texture_from_m >= 0 &&
-          ladder.colour_from_m >= ladder.texture_from_m))
-        return bad_command("a field with geometry to {} m, textures from {} m, colours from {} m, {} m wide: out of order",
-                           ladder.geometry_to_m, ladder.texture_from_m, ladder.colour_from_m, ladder.radius_m);
+    if (!(ladder.radius_m > 0 && ladder.geometry_to_m >= 0 && ladder.texture_from_m >= 0 && ladder.texel_from_m > 0))
+        return bad_command(
+            "a field with geometry to {} m, textures from {} m, their texels a pixel at {} m, {} m wide: a distance is wrong",
+            ladder.geometry_to_m, ladder.texture_from_m, ladder.texel_from_m, ladder.radius_m);
     return {};
 }
 
@@ -41,15 +45,18 @@ FieldOptions paper_options(const ImageSet& set) {
     FieldOptions options;
     options.ladder.radius_m = kPaperRadius_tiles * set.tile_m, options.ladder.fade_share = 0;
     options.direction_fade_share = 0;
+    options.ladder.texture_levels = uint32_t(std::bit_width(options.texture_side_px));
     options.displacement_px = INFINITY, options.most_pieces_log2 = 0, options.chooses_diagonals = false;
     return options;
 }
 
-FieldOptions options_to_horizon(const ImageSet& set, double focal_px, double geometry_to_m) {
+FieldOptions options_to_horizon(const ImageSet& set, double focal_px, double geometry_to_m, uint32_t texture_side_px) {
     FieldOptions options;
+    options.texture_side_px = texture_side_px;
+    options.ladder.texture_levels = uint32_t(std::bit_width(texture_side_px));
     options.ladder.geometry_to_m = geometry_to_m;
-    options.ladder.texture_from_m = std::max(set.cell.farthest_m, focal_px * set.tile_m / options.texture_side_px);
-    options.ladder.colour_from_m = std::max(options.ladder.texture_from_m, focal_px * set.tile_m);
+    options.ladder.texel_from_m = kDiagonal * focal_px * set.tile_m / texture_side_px;
+    options.ladder.texture_from_m = std::max(set.cell.farthest_m, options.ladder.texel_from_m);
     return options;
 }
 
@@ -79,6 +86,16 @@ Result<Field> Field::of(const FieldParts& parts, const FieldOptions& options) {
 
 uint64_t Field::image_of(const Item& item, const Shown& shown) const {
     return index_of(*parts_.images, {item.context, item.tile, ladder_.rungs[shown.rung].level, shown.direction});
+}
+
+Chosen Field::chosen(const glm::dvec2& eye_from_middle_m, double eye_above_ground_m) const {
+    double distance = distance_m(eye_from_middle_m, eye_above_ground_m);
+    return {distance, rungs_at(ladder_, distance),
+            directions_at(*parts_.images, eye_from_middle_m, options_.direction_fade_share)};
+}
+
+double Field::texels_of(const Rung& rung) const {
+    return rung.stage == Stage::colour ? std::exp2(-double(rung.level)) : double(options_.texture_side_px >> rung.level);
 }
 
 double Field::distance_m(const glm::dvec2& ground_m, double eye_above_ground_m) const {

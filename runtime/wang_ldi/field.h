@@ -30,6 +30,8 @@ struct FieldParts {
     double overhang_m = 0;  // so far what is planted reaches over its tile's edges at most; where tiles are drawn as geometry
 };
 
+constexpr double kDiagonal = 1.4142135623730951;  // of a square: so wide it looks at most from aside
+
 struct FieldOptions {
     LadderOptions ladder;
     double direction_fade_share = 0.1;  // as directions_at
@@ -37,15 +39,16 @@ struct FieldOptions {
     double displacement_px = 1;
     uint32_t most_pieces_log2 = 2;  // 0..4
     bool chooses_diagonals = true;  // false: all rise to the north-east
-    uint32_t texture_side_px = 32;  // of a tile's textures
+    uint32_t texture_side_px = 32;  // of a tile's textures, a power of two
     double block_share = 0.25;      // side of a block of tiles at most, of its distance; 0..0.5
     bool widens_splats = true;      // by as much as samples stand farther apart on a slope
 };
 // As the paper draws: tiles up to 40 tiles away by images alone, without fades, each sheared in two.
 FieldOptions paper_options(const ImageSet& set);
 // Everything up to the horizon: images as far as they were sampled for, and until a tile is no more than texture_side_px wide on
-// the picture; then textures until it is a pixel; then colours. tiles nearer than geometry_to_m as geometry.
-FieldOptions options_to_horizon(const ImageSet& set, double focal_px, double geometry_to_m = 0);
+// the picture; then textures until it is a pixel; then colours. tiles nearer than geometry_to_m as geometry. texture_side_px: a
+// power of two.
+FieldOptions options_to_horizon(const ImageSet& set, double focal_px, double geometry_to_m = 0, uint32_t texture_side_px = 32);
 
 // One of the means of an item. At a pixel of an image it is shown if by_rung contains its rung_threshold and by_direction its
 // direction_threshold. The shown of an item are whole together, less what is bare.
@@ -66,17 +69,19 @@ struct Half {
 };
 
 struct Item {
-    int64_t i = 0, j = 0;    // south-west tile
-    uint8_t tiles_log2 = 0;  // 0: one tile; a block covers 2^n x 2^n and is laid over the ground as it is drawn
-    uint8_t tile = 0;        // of the set; of a block 0: ask the tiling at each place
-    uint8_t context = 0;     // of images
+    int64_t i = 0, j = 0;  // south-west tile
+    // 0: one tile; a block covers 2^n x 2^n, of which each place is asked as it is drawn (Field::chosen), and has no shown.
+    uint8_t tiles_log2 = 0;
+    uint8_t tile = 0;     // of the set; of a block 0: ask the tiling at each place
+    uint8_t context = 0;  // of images
     uint8_t pieces_log2 = 0;
     bool is_planted_throughout = true;  // of a block; else ask the placement at each place
-    bool is_outside_cell = false;       // images are drawn for an eye that they were not sampled for
+    bool is_outside_cell = false;       // some image is drawn for an eye that it was not sampled for (is_sampled_for)
     uint32_t first_shown = 0, shown_count = 0;
     uint32_t first_half = 0, half_count = 0;  // back to front; none unless images or geometry are shown
     uint32_t coarser_px = 0;                  // side of the coarsest image or texture of a tile, for rung_threshold; of a block 0
-    uint32_t texels_px = 0;                   // side of the whole item in texels, if textures or colours are shown
+    uint32_t texels_px = 0;                   // side of the whole item in its finest texels, if textures or colours are shown
+    uint32_t last_rung = 0;                   // of a block, the coarsest that any place of it may be shown by
     double distance_m = 0;                    // what rungs and shares were chosen by: of a tile's or block's middle
     double low_m = 0, high_m = 0;             // everything of it lies between
     double displacement_m = 0;                // as Sheared, of the worst piece
@@ -108,6 +113,12 @@ struct FieldList {
     std::span<const Half> halves_of(const Item& item) const { return {halves.data() + item.first_half, item.half_count}; }
 };
 
+// By what a place is shown.
+struct Chosen {
+    double distance_m = 0;  // that rungs are chosen by
+    Mix rungs, directions;
+};
+
 class Field {
   public:
     // Exit::bad_command if parts do not belong together or options are out of range: "a field of tiles of 2 m with images of 3
@@ -123,6 +134,14 @@ class Field {
     const Ladder& ladder() const { return ladder_; }
     // Which image: of a tile's item whose shown has an ldi rung. For ImageReader::read.
     uint64_t image_of(const Item& item, const Shown& shown) const;
+    // Of a tile, or of a square of tiles, by its middle.
+    Chosen chosen(const glm::dvec2& eye_from_middle_m, double eye_above_ground_m) const;
+    // Texels of a rung of textures or colours along the side of a tile; less than 1 where one covers several.
+    double texels_of(const Rung& rung) const;
+    // The picture of a texture that shows a single tile by such a rung.
+    uint32_t texture_level(const Rung& rung) const {
+        return rung.stage == Stage::texture ? rung.level : options_.ladder.texture_levels - 1;
+    }
     // The number of a tile's own that decides its fades.
     static uint64_t fade_number(int64_t i, int64_t j) { return hash_of(0, 0x6661, i, j); }
     // By how far rungs are chosen: on the ground, and up as far as the eye is above where images are sampled from.

@@ -14,13 +14,6 @@ std::array<std::pair<int, int>, 4> quarters_towards(const glm::dvec2& eye, const
     return {{{1 - near_x, 1 - near_y}, {1 - near_x, near_y}, {near_x, 1 - near_y}, {near_x, near_y}}};
 }
 
-// The least power of two that is not below.
-uint32_t power_of_two(double value) {
-    uint32_t power = 1;
-    while (double(power) < value && power < 1u << 30) power *= 2;
-    return power;
-}
-
 // 0 inside.
 double distance_to(const Rect& rect, const glm::dvec2& at_m) {
     return glm::length(at_m - glm::clamp(at_m, rect.low_m, rect.high_m));
@@ -116,7 +109,7 @@ class FieldWalk {
         item.context = images_.context_count == 2 && placement_.is_at_edge(i, j);
         bool is_upright = show(item, rect, range, above_m);  // has images or geometry, not textures alone
         if (item.shown_count == 0) return;
-        if (is_upright) shear(item, rect);
+        if (is_upright) shear(item, rect), judge(item, rect);
         ++list_.counts.tiles_listed;
         list_.items.push_back(item);
     }
@@ -126,35 +119,36 @@ class FieldWalk {
         Item item;
         item.i = i, item.j = j, item.tiles_log2 = log2;
         item.is_planted_throughout = coverage == Placement::Coverage::all;
-        item.texels_px = texels_of(double(int64_t(1) << log2), near_m);
-        show(item, rect, bound, eye_m_.z - bound.high_m);
-        if (item.shown_count == 0) return;
+        item.low_m = bound.low_m + images_.low_m, item.high_m = bound.high_m + images_.high_m;
+        glm::dvec2 eye(eye_m_), middle = (rect.low_m + rect.high_m) / 2.0;
+        item.distance_m = field_.distance_m(eye - middle, eye_m_.z - bound.high_m);
+        glm::dvec2 farthest = glm::max(glm::abs(rect.low_m - eye), glm::abs(rect.high_m - eye));
+        uint32_t first = rungs_at(field_.ladder_, near_m).first;
+        item.last_rung = rungs_at(field_.ladder_, field_.distance_m(farthest, eye_m_.z - bound.low_m)).second;
+        if (field_.ladder_.rungs[item.last_rung].stage == Stage::bare) --item.last_rung;
+        const Rung& finest = field_.ladder_.rungs[first];
+        if (finest.stage == Stage::bare) return;
+        item.texels_px = uint32_t(std::max(1.0, std::ldexp(field_.texels_of(finest), log2)));
+        list_.counts.texels += uint64_t(item.texels_px) * item.texels_px;
         ++list_.counts.blocks_listed;
         list_.items.push_back(item);
     }
 
-    uint32_t texels_of(double tiles, double near_m) const {
-        double most = tiles * field_.options_.texture_side_px;
-        return power_of_two(std::min(focal_px_ * tiles * images_.tile_m / near_m, most));
-    }
-
-    // Chooses rungs and directions by the rectangle's middle; whether images or geometry are among them.
+    // Chooses rungs and directions by the tile's middle; whether images or geometry are among them.
     bool show(Item& item, const Rect& rect, const GroundRange& range, double eye_above_m) {
         glm::dvec2 eye_from_middle = glm::dvec2(eye_m_) - (rect.low_m + rect.high_m) / 2.0;
-        item.distance_m = field_.distance_m(eye_from_middle, eye_above_m);
+        Chosen chosen = field_.chosen(eye_from_middle, eye_above_m);
+        item.distance_m = chosen.distance_m;
         item.low_m = range.low_m + images_.low_m, item.high_m = range.high_m + images_.high_m;
         item.first_shown = uint32_t(list_.shown.size());
-        Mix rungs = rungs_at(field_.ladder_, item.distance_m);
-        Mix directions = directions_at(images_, eye_from_middle, field_.options_.direction_fade_share);
-        bool is_upright = show_rung(item, rungs.first, first_of(rungs), directions, eye_from_middle, eye_above_m);
-        if (rungs.second != rungs.first)
-            is_upright |= show_rung(item, rungs.second, second_of(rungs), directions, eye_from_middle, eye_above_m);
+        const Mix &rungs = chosen.rungs, &directions = chosen.directions;
+        bool is_upright = show_rung(item, rungs.first, first_of(rungs), directions);
+        if (rungs.second != rungs.first) is_upright |= show_rung(item, rungs.second, second_of(rungs), directions);
         item.shown_count = uint32_t(list_.shown.size()) - item.first_shown;
         return is_upright;
     }
 
-    bool show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions, const glm::dvec2& eye_from_middle,
-                   double eye_above_m) {
+    bool show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions) {
         const Rung& rung = field_.ladder_.rungs[index];
         if (rung.stage == Stage::bare) return false;
         if (rung.stage == Stage::geometry) {
@@ -165,13 +159,22 @@ class FieldWalk {
         if (directions.second != directions.first) add_shown(item, {index, directions.second, by_rung, second_of(directions)});
         if (rung.stage != Stage::ldi) return false;
         item.coarser_px = images_.levels[rung.level].side_px;
-        const Cell& cell = images_.cell;
-        double ground_m = glm::length(eye_from_middle);
-        bool was_outside = item.is_outside_cell;
-        item.is_outside_cell = eye_above_m < cell.eye_low_m || eye_above_m > cell.eye_high_m || ground_m < cell.nearest_m ||
-                               ground_m > cell.farthest_m;
-        list_.counts.outside_cell += item.is_outside_cell && !was_outside;
         return true;
+    }
+
+    // Whether images are drawn for an eye that they were not sampled for. A tile sheared onto a slope looks as it does on flat
+    // ground to an eye as high above the slope, which goes on to below the eye.
+    void judge(Item& item, const Rect& rect) {
+        glm::dvec2 from_middle = glm::dvec2(eye_m_) - (rect.low_m + rect.high_m) / 2.0;
+        for (const Shown& shown : list_.shown_of(item)) {
+            const Rung& rung = field_.ladder_.rungs[shown.rung];
+            if (rung.stage != Stage::ldi) continue;
+            for (const Half& half : list_.halves_of(item)) {
+                double above_m = eye_m_.z - half.plane.height_m - glm::dot(half.plane.slope, glm::dvec2(eye_m_) - rect.low_m);
+                item.is_outside_cell |= !is_sampled_for(images_, rung.level, shown.direction, from_middle, above_m);
+            }
+        }
+        list_.counts.outside_cell += item.is_outside_cell;
     }
 
     void add_shown(Item& item, const Shown& shown) {
@@ -182,10 +185,10 @@ class FieldWalk {
             list_.counts.samples_shown +=
                 samples * (shown.by_rung.share() * shown.by_direction.share() / double(kWhole * kWhole));
         } else {
-            if (item.texels_px == 0) item.texels_px = texels_of(1, std::max(item.distance_m, images_.tile_m));
-            if (item.tiles_log2 == 0)
-                item.coarser_px = item.coarser_px > 0 ? std::min(item.coarser_px, item.texels_px) : item.texels_px;
-            list_.counts.texels += uint64_t(item.texels_px) * item.texels_px;
+            auto side = uint32_t(std::max(1.0, field_.texels_of(field_.ladder_.rungs[shown.rung])));
+            item.texels_px = std::max(item.texels_px, side);
+            item.coarser_px = item.coarser_px > 0 ? std::min(item.coarser_px, side) : side;
+            list_.counts.texels += uint64_t(side) * side;
         }
     }
 

@@ -49,9 +49,10 @@ Result<std::unique_ptr<ImageStore>> ImageStore::open(const std::string& name, co
     std::vector<uint32_t> coarsest;
     for (uint64_t i = 0; i < set.ldi_count(); ++i) {
         uint32_t level = which_of(set, i).level;
-        source.decoded_bytes.push_back(bytes_of(set, level, images.entries()[size_t(i)]));
+        source.decoded_bytes.push_back(wang_ldi::bytes_of(set, level, images.entries()[size_t(i)]));
         if (level + 1 == set.levels.size()) coarsest.push_back(uint32_t(i));
     }
+    made->bytes_ = source.decoded_bytes;
     source.need_begin.assign(source.decoded_bytes.size() + 1, 0);
     source.keeps_blocks = true;
     ImageStore* store = made.get();

@@ -49,6 +49,7 @@ class ImageStore {
 
     // Null where it is not there. Any thread.
     const StoredImage* at(uint64_t index) const { return images_[size_t(index)].get(); }
+    uint64_t bytes_of(uint64_t index) const { return bytes_[size_t(index)]; }  // that it takes when it is there
     bool is_settled() const { return stream_->is_settled(); }
     const stream::Counts& counts() const { return stream_->counts(); }
     const stream::Settings& settings() const { return stream_->settings(); }
@@ -61,6 +62,7 @@ class ImageStore {
     const ImageReader* reader_;
     std::vector<std::unique_ptr<StoredImage>> decoded_;  // by workers, until the frame's thread takes them over
     std::vector<std::unique_ptr<StoredImage>> images_;   // [ldi_count]
+    std::vector<uint64_t> bytes_;                        // [ldi_count]
     std::vector<Error> faults_;
     std::unique_ptr<stream::Stream> stream_;  // last: its workers use the others
 };

@@ -6,14 +6,16 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr double kWidestOfSample_px = 256 / 16.0;
+constexpr double kDrawn = 0.1;  // of texels about so many points are drawn
 
 double cost_of(const Field& field, const FieldList& list, const Item& item) {
     double cost = 1;
     for (const Shown& shown : list.shown_of(item)) {
         Stage stage = field.ladder().rungs[shown.rung].stage;
         if (stage == Stage::ldi) cost += field.parts().sample_counts[field.image_of(item, shown)];
-        if (stage == Stage::texture || stage == Stage::colour) cost += double(item.texels_px) * item.texels_px;
+        if (stage == Stage::texture || stage == Stage::colour) cost += kDrawn * item.texels_px * item.texels_px;
     }
+    if (item.tiles_log2 > 0) cost += kDrawn * item.texels_px * item.texels_px;
     return cost;
 }
 
@@ -34,7 +36,9 @@ std::vector<size_t> parts_of(const Field& field, const FieldList& list, unsigned
 
 double widest_splat_m(const Field& field, const FieldList& list, const Item& item) {
     const ImageSet& images = *field.parts().images;
-    double widest_m = 0, side_m = images.tile_m * double(int64_t(1) << item.tiles_log2);
+    auto texel_m = [&](uint32_t rung) { return 1.5 * images.tile_m / field.texels_of(field.ladder().rungs[rung]); };  // aslant
+    if (item.tiles_log2 > 0) return texel_m(item.last_rung);
+    double widest_m = 0;
     for (const Shown& shown : list.shown_of(item)) {
         const Rung& rung = field.ladder().rungs[shown.rung];
         if (rung.stage == Stage::ldi) {
@@ -42,7 +46,7 @@ double widest_splat_m(const Field& field, const FieldList& list, const Item& ite
             widest_m = std::max(
                 widest_m, images.tile_m / level.side_px * (images.has_splats ? kWidestOfSample_px : double(level.splat_px)));
         } else if (item.texels_px > 0) {
-            widest_m = std::max(widest_m, 1.5 * side_m / item.texels_px);  // the diagonal, rounded up
+            widest_m = std::max(widest_m, texel_m(shown.rung));
         }
     }
     return widest_m;

@@ -37,6 +37,11 @@ Result<void> PlantedField::make_parts(const PlantedOptions& options) {
     if (shared.tile_count != set_.tiles.size() || shared.tile_m != planting_.tile_size_m)
         return bad_input("{}: has images of {} tiles of {} m for a planting of {} tiles of {} m", name(), shared.tile_count,
                          shared.tile_m, set_.tiles.size(), planting_.tile_size_m);
+    if (has_textures(file_)) {
+        Result<TextureSet> textures = read_textures(file_, shared);
+        if (!textures) return tl::unexpected(textures.error());
+        textures_.emplace(std::move(*textures));
+    }
     for (const Entry& entry : images_->entries()) sample_counts_.push_back(entry.sample_count);
 
     for (const auto& tile : planting_.tiles)

@@ -8,6 +8,7 @@
 
 #include "formats/wang_ground.h"
 #include "formats/wang_ldi.h"
+#include "formats/wang_textures.h"
 #include "runtime/wang_ldi/field.h"
 #include "runtime/wang_ldi/ground.h"
 #include "runtime/wang_ldi/placement.h"
@@ -32,9 +33,9 @@ struct PlantedOptions {
 // Stays where it is, since its parts know each other.
 class PlantedField {
   public:
-    // Reads the set of tiles, the planting and the images' directory; none of the images. on: what the tiles stand on, whose
-    // terrain must outlive this. The file may be hostile. Fails as wang_ldi::read, ImageReader::open, Placement::of and
-    // RandomTiling::of or RowTiling::of, and with Exit::bad_input:
+    // Reads the set of tiles, the planting, the images' directory and the textures; none of the images. on: what the tiles stand
+    // on, whose terrain must outlive this. The file may be hostile. Fails as wang_ldi::read, ImageReader::open, read_textures,
+    // Placement::of and RandomTiling::of or RowTiling::of, and with Exit::bad_input:
     //   "meadow.ovl: holds a planting without images; bake it without --only planting to draw it"
     //   "meadow.ovl: has images of 3 tiles of 2 m for a planting of 12 tiles of 3 m"
     static Result<std::unique_ptr<PlantedField>> open(container::Reader file, Ground on, const PlantedOptions& options);
@@ -43,6 +44,7 @@ class PlantedField {
 
     const std::string& name() const { return file_.name(); }
     const ImageReader& images() const { return *images_; }
+    const std::optional<TextureSet>& textures() const { return textures_; }  // none if the file has none
     const TileSet& set() const { return set_; }
     const Planting& planting() const { return planting_; }
     const PlaneTiling& tiling() const { return *tiling_; }
@@ -60,6 +62,7 @@ class PlantedField {
     TileSet set_;
     Planting planting_;
     std::optional<ImageReader> images_;
+    std::optional<TextureSet> textures_;
     std::vector<uint32_t> sample_counts_;
     double overhang_m_ = 0;  // as FieldParts
     std::optional<Placement> placement_;

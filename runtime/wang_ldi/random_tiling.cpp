@@ -8,7 +8,7 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr uint32_t kMostBlock = 4, kMostFills = 64;
-constexpr uint64_t kMostBorders = uint64_t(1) << 20;
+constexpr uint64_t kMostBorders = uint64_t(1) << 20, kMostKeptBorders = 4096;
 enum Stream : uint64_t { kCorner = 1, kHorizontal, kVertical, kOrder, kVariant };
 
 int64_t floor_div(int64_t value, int64_t by) {
@@ -110,6 +110,39 @@ struct BlockFiller {
         }
         return true;
     }
+    // All fills of each border, in a fixed order; of a set with one colour of corners and few borders, else none.
+    static void keep_fills(RandomTiling& tiling) {
+        uint64_t borders = 1;
+        for (uint32_t i = 0; i < 2 * tiling.block_; ++i) borders *= tiling.horizontal_.size() * tiling.vertical_.size();
+        if (tiling.corner_colours_ > 1 || tiling.block_ == 1 || borders > kMostKeptBorders) return;
+        for (uint64_t border = 0; border < borders; ++border) {
+            tiling.first_fill_.push_back(uint32_t(tiling.fills_.size()));
+            BlockFiller filler{tiling, tiling.block_};
+            uint64_t rest = border;
+            for (auto [edges, colours] : {std::pair(&filler.south, tiling.horizontal_.size()),
+                                          {&filler.north, tiling.horizontal_.size()},
+                                          {&filler.west, tiling.vertical_.size()},
+                                          {&filler.east, tiling.vertical_.size()}})
+                for (uint32_t i = 0; i < tiling.block_; ++i) (*edges)[i] = uint8_t(rest % colours), rest /= colours;
+            for (uint32_t one = 0, skip = 0; one < kMostFills && filler.fill(skip); skip = ++one)
+                for (uint32_t cell = 0; cell < tiling.block_ * tiling.block_; ++cell)
+                    tiling.fills_.push_back(uint8_t(filler.placed[cell]));
+        }
+        tiling.first_fill_.push_back(uint32_t(tiling.fills_.size()));
+    }
+    // Of those the one that is placed.
+    uint32_t kept(uint32_t cell) const {
+        uint64_t border = 0, times = 1;
+        for (auto [edges, colours] : {std::pair(&south, tiling.horizontal_.size()),
+                                      {&north, tiling.horizontal_.size()},
+                                      {&west, tiling.vertical_.size()},
+                                      {&east, tiling.vertical_.size()}})
+            for (uint32_t i = 0; i < side; ++i) border += times * (*edges)[i], times *= colours;
+        uint32_t first = tiling.first_fill_[border], cells = side * side,
+                 count = (tiling.first_fill_[border + 1] - first) / cells;
+        return tiling.fills_[first + wang_ldi::below(mixed(order_seed), count) * cells + cell];
+    }
+
     // Whether there is a tile for any colours of four edges whose corners agree.
     static bool is_complete(const RandomTiling& tiling) {
         for (size_t south = 0; south < tiling.horizontal_.size(); ++south)
@@ -152,10 +185,14 @@ Result<RandomTiling> RandomTiling::of(const TileSet& set, uint64_t seed, CornerA
         std::none_of(made.vertical_between_.begin(), made.vertical_between_.end(), [](auto& c) { return c.empty(); });
     if (has_all_edges && BlockFiller::is_complete(made)) return made;
     for (made.block_ = 2; made.block_ <= kMostBlock; ++made.block_)
-        if (BlockFiller::fills_every_border(made, made.block_)) return made;
-    return impossible("a set of {} tiles permits no random access: some border of {} x {} tiles cannot be filled, or there are too "
-                      "many to try",
-                      set.tiles.size(), kMostBlock, kMostBlock);
+        if (BlockFiller::fills_every_border(made, made.block_)) {
+            BlockFiller::keep_fills(made);
+            return made;
+        }
+    return impossible(
+        "a set of {} tiles permits no random access: some border of {} x {} tiles cannot be filled, or there are too "
+        "many to try",
+        set.tiles.size(), kMostBlock, kMostBlock);
 }
 
 uint8_t RandomTiling::corner(int64_t x, int64_t y) const {
@@ -183,8 +220,10 @@ uint32_t RandomTiling::prototile(int64_t x, int64_t y) const {
     for (uint32_t j = 0; corner_colours_ > 1 && j <= block_; ++j)
         for (uint32_t i = 0; i <= block_; ++i) filler.corner(i, j) = corner(left + i, bottom + j);
     filler.order_seed = hash_of(seed_, kOrder, left, bottom);
+    auto cell = uint32_t((y - bottom) * side + x - left);
+    if (!fills_.empty()) return filler.kept(cell);
     block_ == 1 ? void(filler.fill_first()) : filler.fill_any();
-    return filler.placed[size_t(y - bottom) * block_ + size_t(x - left)];
+    return filler.placed[cell];
 }
 
 // Of a place where x + y is even: with fewer than five variants the last is left to those places where it is odd, which so

@@ -1,6 +1,7 @@
 #include "runtime/wang_ldi/rings.h"
 
 #include <cmath>
+#include <utility>
 
 namespace overlook::wang_ldi {
 namespace {
@@ -30,13 +31,24 @@ Ldi ring_image(const Ldi& ldi, uint32_t level, uint32_t direction) {
 }
 
 void RingImages::take(const Field& field, const FieldList& list, const ImageStore& images) {
+    std::map<uint64_t, StoredImage> before = std::exchange(images_, {});
+    const stream::Counts& counts = images.counts();
+    uint64_t taken = counts.resident_bytes + counts.on_the_way_bytes, budget = images.settings().residency_budget_bytes;
+    uint64_t room = budget > taken ? budget - taken : 0;
+    bytes_ = 0;
     for (const Item& item : list.items)
         for (const Shown& shown : list.shown_of(item)) {
             const Rung& rung = field.ladder().rungs[shown.rung];
             if (rung.stage != Stage::ldi) continue;
             uint64_t index = field.image_of(item, shown);
             const StoredImage* image = images_.contains(index) ? nullptr : images.at(index);
-            if (image != nullptr) images_.emplace(index, StoredImage::of(ring_image(image->ldi, rung.level, shown.direction)));
+            uint64_t bytes = image == nullptr ? 0 : images.bytes_of(index);
+            if (image == nullptr || bytes_ + bytes > room) continue;
+            bytes_ += bytes;
+            if (auto kept = before.extract(index))
+                images_.insert(std::move(kept));
+            else
+                images_.emplace(index, StoredImage::of(ring_image(image->ldi, rung.level, shown.direction)));
         }
 }
 

@@ -18,13 +18,16 @@ std::array<uint8_t, 3> ring_colour(uint32_t level, uint32_t direction);
 // Images as they are, in the colours of their rings, with some of their own light and dark.
 class RingImages {
   public:
-    // Has ready what a list shows, of the images at hand.
+    // Has ready what a list shows, of the images at hand, as far as there is room beside these in their budget, and lets go what
+    // it does not show.
     void take(const Field& field, const FieldList& list, const ImageStore& images);
-    // Null of what take() was not told of. Any thread.
+    // Null of what is not ready. Any thread.
     const StoredImage* at(uint64_t index) const;
+    uint64_t bytes() const { return bytes_; }
 
   private:
     std::map<uint64_t, StoredImage> images_;
+    uint64_t bytes_ = 0;
 };
 // One image so.
 Ldi ring_image(const Ldi& ldi, uint32_t level, uint32_t direction);

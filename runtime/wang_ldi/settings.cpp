@@ -15,11 +15,13 @@ constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kSlopeSplats{"slope-splats", 0, 1, 1, true, true, true}, kFar{"far", 0, 1, 1, true, true, true},
     kDepth{"depth", 0, 1, 1, true, true, true}, kCuts{"cuts", 0, 1, 1, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 13> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 15> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
+                                              SettingKind{"geometry", 0, 2, 2, true},
                                               SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
+                                              SettingKind{"warper", 0, 2, 0, true},
                                               SettingKind{"exact", 0, 1, 0, true, true, true},
                                               SettingKind{"fill", 0, 1, 1, true, true, true},
                                               kSlopeSplats,
@@ -52,8 +54,12 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.fade = value;
     } else if (name == "direction-fade") {
         options.direction_fade = value;
+    } else if (name == "geometry") {
+        options.geometry = NearGeometry(int(value));
     } else if (name == "geometry-m") {
         options.geometry_m = value;
+    } else if (name == "warper") {
+        options.warper = Warper(int(value));
     } else if (name == "exact") {
         options.is_exact = value != 0;
     } else if (name == "fill") {
@@ -74,9 +80,15 @@ void set(FrameOptions& options, std::string_view name, double value) {
     }
 }
 
-FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px) {
+double geometry_to_m(const ImageSet& images, const FrameOptions& options) {
+    if (options.variant == Variant::paper || options.geometry == NearGeometry::none) return 0;
+    return options.geometry_m > 0 ? options.geometry_m : images.cell.nearest_m;
+}
+
+FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px, uint32_t texture_side_px) {
     bool is_paper = options.variant == Variant::paper;
-    FieldOptions made = is_paper ? paper_options(images) : options_to_horizon(images, focal_px, options.geometry_m);
+    FieldOptions made =
+        is_paper ? paper_options(images) : options_to_horizon(images, focal_px, geometry_to_m(images, options), texture_side_px);
     if (!is_paper) {
         made.ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
         made.displacement_px = options.error_px, made.ladder.coarser = options.error_px;

@@ -115,6 +115,9 @@ class RandomTiling final : public PlaneTiling {
     std::vector<Tile> prototiles_;
     std::vector<std::vector<uint8_t>> variants_;          // [prototile]: tiles
     std::vector<std::vector<uint32_t>> fits_south_west_;  // [south * verticals + west]: prototiles
+    // Of each border the prototiles of each of its fills, one after the other; none unless they are few.
+    std::vector<uint32_t> first_fill_;
+    std::vector<uint8_t> fills_;
 };
 
 }  // namespace overlook::wang_ldi

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "formats/parallel.h"
+#include "runtime/wang_ldi/far_painter.h"
 #include "runtime/wang_ldi/in_picture.h"
 #include "runtime/wang_ldi/list_parts.h"
-#include "runtime/wang_ldi/texel_painter.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -17,14 +18,14 @@ class FieldWarper {
 
   public:
     FieldWarper(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                const FarColours* far, Warped& picture)
+                const FarImages* far, Warped& picture)
         : eye_(camera),
           bounds_(camera),
           field_(field),
           list_(list),
           image_at_(image_at),
-          far_(far),
           brush_(eye_, PictureTarget<hiding>(picture), counts_) {
+        if (far != nullptr) far_.emplace(eye_, bounds_, field, *far, brush_);
         for (const Level& level : field.parts().images->levels) highest_step_m_ = std::max(highest_step_m_, level.height_step_m);
     }
 
@@ -34,8 +35,7 @@ class FieldWarper {
         if (!may_be_seen(item, corner_m, side_m)) return;
         glm::dvec2 eye_share = (glm::dvec2(eye_.position_m) - corner_m) / side_m;
         if (item.half_count == 0) {
-            if (far_ != nullptr && item.texels_px > 0)
-                TexelPainter<Painting>(eye_, field_, *far_, item, brush_).draw_all(list_.shown_of(item), eye_share);
+            if (far_ && item.texels_px > 0) far_->draw(item);
             return;
         }
         draw_tile(item, corner_m, eye_share);
@@ -52,7 +52,7 @@ class FieldWarper {
     void draw_tile(const Item& item, const glm::dvec2& corner_m, const glm::dvec2& eye_share) {
         const ImageSet& images = *field_.parts().images;
         std::vector<std::unique_ptr<Columns>> owners;
-        std::unique_ptr<TexelPainter<Painting>> texels;
+        if (far_) far_->begin(item);
         for (const Shown& shown : list_.shown_of(item)) {
             const Rung& rung = field_.ladder().rungs[shown.rung];
             if (rung.stage == Stage::ldi) {
@@ -61,9 +61,8 @@ class FieldWarper {
                 if (ldi == nullptr) continue;
                 owners.push_back(std::make_unique<ImageColumns<Painting>>(
                     eye_, images, *ldi, rung.level, SplatRule{1, field_.options().widens_splats}, corner_m, brush_));
-            } else if (rung.stage != Stage::geometry && far_ != nullptr) {
-                if (!texels) texels = std::make_unique<TexelPainter<Painting>>(eye_, field_, *far_, item, brush_);
-                owners.push_back(std::make_unique<TexelColumns<Painting>>(*texels, item.texels_px, shown.direction));
+            } else if (rung.stage != Stage::geometry && far_) {
+                owners.push_back(std::make_unique<FarColumns<Painting>>(*far_, far_->picture(shown)));
             } else {
                 continue;
             }
@@ -85,9 +84,9 @@ class FieldWarper {
     const Field& field_;
     const FieldList& list_;
     const ImageAt& image_at_;
-    const FarColours* far_;
     WarpCounts counts_;
     Painting brush_;
+    std::optional<FarPainter<Painting>> far_;
     float highest_step_m_ = 0;
 };
 
@@ -106,7 +105,7 @@ void lay_over(const Warped& later, Warped& picture) {
 
 template <Hiding hiding>
 WarpCounts warp_list(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                     const FarColours* far, Warped& picture) {
+                     const FarImages* far, Warped& picture) {
     std::vector<size_t> ends = parts_of(field, list, thread_count());
     std::vector<Warped> others(ends.size() - 1);
     std::vector<WarpCounts> counts(ends.size());
@@ -125,7 +124,7 @@ WarpCounts warp_list(const view::Camera& camera, const Field& field, const Field
 }  // namespace
 
 WarpCounts warp_field(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                      Hiding hiding, Warped& picture, const FarColours* far) {
+                      Hiding hiding, Warped& picture, const FarImages* far) {
     if (hiding == Hiding::by_order) return warp_list<Hiding::by_order>(camera, field, list, image_at, far, picture);
     return warp_list<Hiding::by_depth>(camera, field, list, image_at, far, picture);
 }

@@ -5,18 +5,18 @@
 // over each other in the list's order.
 #pragma once
 
-#include "runtime/wang_ldi/far_colours.h"
+#include "runtime/wang_ldi/far_images.h"
 #include "runtime/wang_ldi/field.h"
 #include "runtime/wang_ldi/warp.h"
 
 namespace overlook::wang_ldi {
 
 // Draws the list of a field for a camera over what is in the picture. Tiles stand sheared on their halves' planes, each half with
-// the pixels of its own alone; of images that fade, each place is shown by one. Textures and colours are drawn from `far`, texels
-// as wide as their diagonal is on the picture, on the ground; without it they are left out, as is geometry. An image that is not
+// the pixels of its own alone; of images that fade, each place is shown by one. Textures and colours are drawn from `far`, on the
+// ground; without it they are left out, as is geometry. An image that is not
 // at hand is left out and counted. As the paper draws: the list of paper_options, by order. Same picture and counts with any
 // number of threads. Memory: a picture for each thread but one. O(samples + pixels written).
 WarpCounts warp_field(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                      Hiding hiding, Warped& picture, const FarColours* far = nullptr);
+                      Hiding hiding, Warped& picture, const FarImages* far = nullptr);
 
 }  // namespace overlook::wang_ldi

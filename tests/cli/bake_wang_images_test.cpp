@@ -52,7 +52,7 @@ Words words_of(const ScratchFolder& folder, const std::string& output, const Wor
                 "--sun-rays",
                 "2",
                 "--direction-px",
-                "30",
+                "52",
                 "--farthest-m",
                 "30",
                 "--textures",
@@ -77,7 +77,7 @@ std::string read_ldis(const std::string& path, uint64_t& samples) {
 TEST(BakeWangImages, SaysWhatItHasMadeAndCanBeRead) {
     ScratchFolder folder;
     write_bushes(folder);
-    Ran ran = run(words_of(folder, "a.ovl", {"--json", "--judge", "1"}));
+    Ran ran = run(words_of(folder, "a.ovl", {"--json", "--judge", "60"}));
     expect_done(ran);
     nlohmann::json report = nlohmann::json::parse(ran.out)["images"];
     EXPECT_GE(report["levels"].size(), 2u);
@@ -91,6 +91,50 @@ TEST(BakeWangImages, SaysWhatItHasMadeAndCanBeRead) {
     EXPECT_EQ(samples, report["samples"]);
     EXPECT_FALSE(fs::exists(folder / "a.ovl.parts"));
     expect_done(run({"baked", "info", folder / "a.ovl"}));
+}
+
+TEST(BakeWangImages, OnTrialMakesNoFileAndSaysTheSameOfItsTiles) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    auto before = contents_of(folder.path());
+    Ran ran = run(words_of(folder, "a.ovl", {"--json", "--trial", "2", "--judge", "40"}));
+    expect_done(ran);
+    EXPECT_EQ(contents_of(folder.path()), before);
+    nlohmann::json trial = nlohmann::json::parse(ran.out)["images"];
+    EXPECT_EQ(trial["trial_tiles"], 2);
+    EXPECT_EQ(trial["images"], 2 * trial["levels"].size() * trial["directions"].get<size_t>());
+    EXPECT_GT(trial["among_its_neighbours"]["e_mean"], 0);
+    EXPECT_GE(trial["among_its_neighbours"]["e_p99"], trial["among_its_neighbours"]["e_mean"]);
+    EXPECT_LE(trial["among_its_neighbours"]["filled_hole_share"], trial["among_its_neighbours"]["hole_share"]);
+    // Threads change none of it but the time.
+    Ran alone = run(words_of(folder, "a.ovl", {"--json", "--trial", "2", "--judge", "40", "--threads", "1"}));
+    nlohmann::json again = nlohmann::json::parse(alone.out)["images"];
+    trial.erase("seconds"), again.erase("seconds");
+    EXPECT_TRUE(trial == again);
+    expect_refusal(run(words_of(folder, "a.ovl", {"--trial", "1", "--part", "1/2"})), 2, "bake-wang-ldi",
+                   {"--trial 1 and --part"});
+}
+
+TEST(BakeWangImages, OfGlossyModelsHaveOtherColours) {
+    ScratchFolder folder;
+    write_bushes(folder);
+    expect_done(run(words_of(folder, "a.ovl")));
+    std::string recipe = text_of_file(folder / "bushes.toml");
+    write_text(folder / "bushes.toml", recipe + "roughness = 0.3\n");
+    expect_done(run(words_of(folder, "b.ovl")));
+    expect_done(run(words_of(folder, "c.ovl", {"--gloss", "none"})));
+    std::array<std::vector<wang_ldi::Ldi>, 3> ldis;
+    for (size_t i = 0; i < 3; ++i) {
+        auto file = container::Reader::open(folder / (std::string(1, char('a' + i)) + ".ovl"));
+        auto images = wang_ldi::ImageReader::open(*file);
+        for (uint64_t index : {0u, 1u}) ldis[i].push_back(*images->read(index));
+    }
+    EXPECT_TRUE(ldis[0] == ldis[2]);
+    EXPECT_FALSE(ldis[0] == ldis[1]);
+    EXPECT_TRUE(ldis[0][0].heights == ldis[1][0].heights);
+    write_text(folder / "bushes.toml", recipe + "roughness = 1.5\n");
+    expect_refusal(run(words_of(folder, "b.ovl")), 3, "bake-wang-ldi",
+                   {"bushes.toml:7", "model 1", "roughness: 1.5 is not a number"});
 }
 
 TEST(BakeWangImages, AreVerifiedByThemselvesAndTold) {
@@ -250,7 +294,8 @@ TEST(BakeWangImages, ShowsItsTilesAsPictures) {
     expect_done(run(words_of(folder, "a.ovl", {"--border-images"})));
     Ran ran = run({"baked", "info", folder / "a.ovl", "--sheet", folder / "sheet", "--json"});
     expect_done(ran);
-    for (const char* name : {"tiles-above.png", "tiles-aside.png", "directions.png", "levels.png", "planting.png"})
+    for (const char* name : {"tiles-above.png", "tiles-aside.png", "directions.png", "levels.png", "planting.png",
+                             "textures-above.png", "textures-aside.png"})
         EXPECT_GE(fs::file_size(folder / ("sheet/" + std::string(name))), 1000u) << name;
     nlohmann::json images = nlohmann::json::parse(ran.out)["images"];
     EXPECT_EQ(images["contexts"], 2);
@@ -285,7 +330,7 @@ TEST(BakeWangImages, RefusesTilesThatAreTooNear) {
     ScratchFolder folder;
     write_bushes(folder);
     expect_refusal(run(words_of(folder, "a.ovl", {"--nearest-m", "1"})), 2, "bake-wang-ldi",
-                   {"within a tile of 3 m", "--nearest-m 2.1"});
+                   {"within a tile of 3 m", "--nearest-m 2.25"});
     expect_refusal(run(words_of(folder, "a.ovl", {"--fov-y-deg", "1", "--nearest-m", "3"})), 2, "bake-wang-ldi",
                    {"4,096 are possible"});
     // Nearer than the default of 2.5 tiles, in parts too; nothing is left behind.

@@ -51,7 +51,7 @@ class ReproduceWangLdi : public testing::Test {
                     "--sun-rays",
                     "1",
                     "--direction-px",
-                    "30",
+                    "66",
                     "--farthest-m",
                     "16",
                     "--json"};

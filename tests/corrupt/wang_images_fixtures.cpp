@@ -77,7 +77,6 @@ std::vector<Fixture> broken_heads() {
              })},
             {"l04_flags.ovl", 4, with_u32(16, 4)},
             {"l04_reserved.ovl", 4, with_u32(20, 1)},
-            {"l04_reserved_end.ovl", 4, with_u32(124, 1)},
             {"l04_reserved_of_image.ovl", 4, with_entry(1, 36, 1)},
             {"l05_no_tile.ovl", 5, with_f64(24, 0)},
             {"l05_nan_low.ovl", 5, with_f64(32, kNan)},
@@ -89,7 +88,11 @@ std::vector<Fixture> broken_heads() {
             {"l05_no_focal_length.ovl", 5, with_f64(80, 0)},
             {"l05_infinite_error.ovl", 5, with_f64(88, kInfinity)},
             {"l05_long_sun.ovl", 5, with_f64(96, 2)},
-            {"l05_nan_sun.ovl", 5, with_f64(112, kNan)}};
+            {"l05_nan_sun.ovl", 5, with_f64(112, kNan)},
+            {"l05_nan_level_fade.ovl", 5, with_u32(120, std::bit_cast<uint32_t>(kNanF))},
+            {"l05_wide_level_fade.ovl", 5, with_u32(120, std::bit_cast<uint32_t>(0.51f))},
+            {"l05_negative_direction_fade.ovl", 5, with_u32(124, std::bit_cast<uint32_t>(-0.1f))},
+            {"l05_wide_direction_fade.ovl", 5, with_u32(124, std::bit_cast<uint32_t>(0.51f))}};
 }
 
 std::vector<Fixture> broken_levels() {

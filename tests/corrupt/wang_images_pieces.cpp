@@ -10,6 +10,7 @@ ImageSet post() {
     set.cell = {1.5, 1.9, 1, 40, 512, 1};
     set.tile_count = 1, set.direction_count = 1;
     set.has_normals = set.has_splats = true;
+    set.level_fade = 0.0625f, set.direction_fade = 0.125f;
     set.levels = {{2, 1, 0.25f, 1}, {1, 8, 0.5f, 1.5f}};
     return set;
 }

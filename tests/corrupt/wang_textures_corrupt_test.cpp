@@ -100,6 +100,7 @@ TEST(DirectionalTextures, ComeBackAsTheyWereWritten) {
                 if (has_normals) texture.normals.push_back({one(), one(), one()});
             }
         }
+        set.direction_fade = images.direction_fade;  // not stored again
         ScratchFolder folder;
         auto writer = container::Writer::create(folder / "a.ovl", container::tag("WANG"));
         auto written = write_textures(*writer, images, set);

@@ -35,6 +35,32 @@ TEST(DiscreteDrawing, StandsWhereItsInstancesDo) {
     EXPECT_EQ(errors.count(), 0u) << errors.first();
 }
 
+// Bunches beside the picture, which are left out, change no pixel of it: it shows what a list of the whole thing does.
+TEST(DiscreteDrawing, LeavesOutNothingThatIsSeen) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Chain chain = made::sphere_chain(64);
+    Drawing drawing = *Drawing::make(chain);
+    gl::Target target = *gl::Target::make(96, 80, 1);
+    std::vector<Placement> two = {placed({1, 2.5, 0.4}), placed({-1.2, 3, -0.3}, 0.8)};
+    auto frames = *FrameDrawer::make(drawing, two, by_distance(Variant::hard));
+    for (double heading_deg : {-20.0, 0.0, 25.0}) {
+        view::Camera camera = camera_from({0, 0, 0});
+        camera.heading_deg = heading_deg;
+        frames->decide(camera, made::kStep_s, 0);
+        Result<FrameCounts> drawn = frames->draw(target, {});
+        ASSERT_TRUE(drawn);
+        ImageRgb8 cut = target.read();
+        FrameList whole = finest_frame(facts_of(chain), two, camera);
+        ASSERT_LT(drawn->triangle_count, whole.triangle_count) << heading_deg;
+        DrawList list = draw_list(drawing.layout(), chain, whole, two, camera, 0);
+        ListBuffers buffers;
+        buffers.fill(list);
+        Drawn part{&drawing, &buffers, &list};
+        draw(target, {&part, 1}, {});
+        EXPECT_EQ(made::differing(cut, target.read()), 0u) << heading_deg;
+    }
+}
+
 TEST(DiscreteDrawing, TurnsAndScalesWhatStands) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Chain chain = made::empty_chain(glm::dvec3(-1), 2);

@@ -184,10 +184,30 @@ TEST(Turns, RemediesEachChangeThePicture) {
     };
     FrameOptions all = by_distance(Variant::fsi);
     ImageRgb8 whole = picture_of(all);
-    for (const char* name : {"keep-hidden", "weigh-by-phase", "search", "softness", "reproject"}) {
+    for (const char* name : {"keep-hidden", "weigh-by-phase", "search", "softness", "ease-ends", "reproject"}) {
         FrameOptions without = all;
         set(without, name, 0);
         EXPECT_GT(made::differing(picture_of(without), whole, 4), 10u) << name;
+    }
+}
+
+// Two levels that are the same: what is put together of two frames is the thing's own picture, whose outlines an eye that moves
+// on sees where they are, and not by up to half a pixel beside it.
+TEST(Turns, OutlinesOfTheOlderFrameStandAtTheirOwnPlaceBetweenPixels) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    Chain chain = made::simple_chain();
+    chain.levels[1] = chain.levels[0];
+    chain.levels[1].error_m = 0.1F;
+    for (double step_m : {0.02, 0.04, 0.05}) {
+        auto picture_of = [&](Variant variant) {
+            Film film(chain, {placed({0, 0, 0})}, by_distance(variant), 4);
+            film.frame(camera_from({0, -12, 0}));
+            ImageRgb8 picture;
+            for (int frame = 0; frame < 6; ++frame) picture = film.frame(camera_from({step_m * frame, -9, 0}));
+            return picture;
+        };
+        ImageRgb8 put_together = picture_of(Variant::fsi), own = picture_of(Variant::hard);
+        EXPECT_EQ(made::differing(put_together, own, 32), 0u) << step_m;
     }
 }
 

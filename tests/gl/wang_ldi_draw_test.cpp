@@ -144,9 +144,26 @@ TEST_F(Frames, ThatArePipelinedAreThoseOfTheFrameBefore) {
         EXPECT_TRUE(shown.pixels == pictures[size_t(std::max(0, frame - 1))].pixels) << frame;
     }
     EXPECT_FALSE(pictures[0].pixels == pictures[1].pixels);
-    before->change({});  // and at once again
+    ASSERT_TRUE(before->change({}));  // and at once again
     EXPECT_TRUE(picture(*before, 3).pixels == pictures[3].pixels);
     EXPECT_EQ(before->counts().latency_frames, 0u);
+}
+
+// Whoever warps, the picture is the same, but for rounding.
+TEST_F(Frames, AreTheSameByTheGraphicsCard) {
+    FrameOptions by_card;
+    by_card.warper = Warper::card;
+    auto by_processor = frames({}, waiting()), carded = frames(by_card, waiting());
+    for (int frame : {0, 3}) {
+        ImageRgb8 one = picture(*by_processor, frame), other = picture(*carded, frame);
+        EXPECT_FALSE(by_processor->counts().is_warped_by_card);  // the renderer is a processor
+        EXPECT_TRUE(carded->counts().is_warped_by_card);
+        EXPECT_GE(carded->counts().warp.samples, by_processor->counts().warp.samples);
+        size_t differing = 0;
+        for (size_t p = 0; p < one.pixels.size(); p += 3)
+            differing += !std::equal(&one.pixels[p], &one.pixels[p] + 3, &other.pixels[p]);
+        EXPECT_LE(differing, one.pixels.size() / 3 / 1000) << frame;
+    }
 }
 
 TEST_F(Frames, HaveOthersInPlaceOfImagesThatAreOnTheirWay) {
@@ -191,6 +208,11 @@ TEST_F(Frames, ShowRingsByColours) {
     ImageRgb8 own = picture(*plain, 0), shown = picture(*coloured, 0);
     EXPECT_FALSE(own.pixels == shown.pixels);
     EXPECT_EQ(plain->counts().warp, coloured->counts().warp);
+    // Of a budget that has room for nothing but the images, they keep their own colours.
+    ImageStreaming tight = waiting();
+    tight.settings.residency_budget_bytes = plain->counts().stream.resident_bytes + 1000;
+    auto narrow = frames(rings, tight);
+    EXPECT_TRUE(picture(*narrow, 0).pixels == own.pixels);
     int first_ring = 0;
     for (uint32_t x = 0; x < 640; ++x)
         for (uint32_t y = 300; y < 480; ++y) {

@@ -44,7 +44,8 @@ TEST(GltfMesh, NodesPlaceMirrorAndTurnWithNormals) {
     EXPECT_EQ(plain.report.face_count, 2u);
     EXPECT_EQ(normal_of(plain.mesh, 0), glm::dvec3(0, 0, 1));
 
-    const MeshFile mirrored = open_as_it_stands(write_file(folder, "b.glb", square_glb(R"(,"scale":[-2,1,1],"translation":[0,0,5])")));
+    const MeshFile mirrored =
+        open_as_it_stands(write_file(folder, "b.glb", square_glb(R"(,"scale":[-2,1,1],"translation":[0,0,5])")));
     EXPECT_EQ(area_of(mirrored.mesh), 2);
     EXPECT_EQ(normal_of(mirrored.mesh, 0), glm::dvec3(0, 0, 1));  // still seen from the front
     EXPECT_EQ(mirrored.mesh.normals[0], glm::vec3(0, 0, 1));
@@ -128,8 +129,8 @@ TEST(GltfMesh, SparseAndQuantizedAccessorsGiveTheirValues) {
             where, what));
     const MeshFile mesh =
         open_as_it_stands(write_file(folder, "a.glb",
-                              maker.glb(R"("extensionsRequired":["KHR_mesh_quantization"],)" +
-                                        one_primitive(fmt::format(R"("attributes":{{"POSITION":{}}})", positions)))));
+                                     maker.glb(R"("extensionsRequired":["KHR_mesh_quantization"],)" +
+                                               one_primitive(fmt::format(R"("attributes":{{"POSITION":{}}})", positions)))));
     ASSERT_EQ(mesh.mesh.faces.size(), 1u);
     EXPECT_EQ(corner_m(mesh.mesh, 0, 1), glm::vec3(1, 0, 0));
     EXPECT_EQ(corner_m(mesh.mesh, 0, 2), glm::vec3(0, -1, 0));
@@ -144,7 +145,7 @@ TEST(GltfMesh, TextureSetTransformImageAndMaterialAreKept) {
     const std::string rest = fmt::format(
         R"("images":[{{"bufferView":{},"mimeType":"image/png"}}],"textures":[{{"source":0}}],)"
         R"("materials":[{{"name":"brick","alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,"pbrMetallicRoughness":)"
-        R"({{"baseColorFactor":[1,0.5,0,1],"baseColorTexture":{{"index":0,"texCoord":0,"extensions":)"
+        R"({{"baseColorFactor":[1,0.5,0,1],"roughnessFactor":0.25,"metallicFactor":0.5,"baseColorTexture":{{"index":0,"texCoord":0,"extensions":)"
         R"({{"KHR_texture_transform":{{"offset":[0.5,0],"scale":[2,3],"texCoord":1}}}}}}}}}}],)",
         image);
     const MeshFile mesh = open_as_it_stands(write_file(
@@ -156,6 +157,8 @@ TEST(GltfMesh, TextureSetTransformImageAndMaterialAreKept) {
     EXPECT_EQ(surface.name, "brick");
     EXPECT_NEAR(surface.base_colour.g, 0.7354, 1e-4);  // half of the light
     EXPECT_EQ(glm::vec4(surface.base_colour.r, 0, surface.base_colour.b, surface.base_colour.a), glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(surface.roughness, 0.25f);
+    EXPECT_EQ(surface.metallic, 0.5f);
     EXPECT_EQ(surface.texture, "image-0.png");
     EXPECT_EQ(std::string(surface.texture_bytes.begin(), surface.texture_bytes.end()), "PNG bytes");
     EXPECT_TRUE(surface.is_alpha_masked && surface.is_two_sided);
@@ -170,9 +173,9 @@ TEST(GltfMesh, ColoursAreLightInTheFileAndEncodedHere) {
     GltfMaker maker;
     const int positions = maker.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3),
               colours = maker.floats({0, 0.5f, 1, 0.5f, 2, -1, 0.25f, 1, 0.0021f, 0.5f, 0.5f, 0}, "VEC4", 4);
-    const MeshFile mesh = open_as_it_stands(write_file(
-        folder, "a.glb",
-        maker.glb(one_primitive(fmt::format(R"("attributes":{{"POSITION":{},"COLOR_0":{}}})", positions, colours)))));
+    const MeshFile mesh = open_as_it_stands(
+        write_file(folder, "a.glb",
+                   maker.glb(one_primitive(fmt::format(R"("attributes":{{"POSITION":{},"COLOR_0":{}}})", positions, colours)))));
     ASSERT_EQ(mesh.mesh.face_colours.size(), 1u);
     auto colour = [&](size_t corner) { return mesh.mesh.colours[mesh.mesh.face_colours[0][corner]]; };
     using Bytes4 = std::array<uint8_t, 4>;

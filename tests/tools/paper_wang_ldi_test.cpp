@@ -5,6 +5,7 @@
 
 #include "formats/atomic_file.h"
 #include "tests/formats/scratch_folder.h"
+#include "tools/measure/page_text.h"
 #include "tools/measure/paper/wang_ldi/page.h"
 #include "tools/measure/paper/wang_ldi/targets.h"
 
@@ -82,7 +83,7 @@ BakeReport report_of(double unseen, double holes) {
     images.seconds = 600, images.directions = 8;
     images.all.samples = 1000, images.all.bytes = 2000;
     LevelReport level;
-    level.side_px = 300, level.unseen_share_mean = unseen, level.own = Judged{holes, 0, 0.01, 0.1};
+    level.side_px = 300, level.unseen_share_mean = unseen, level.own = Judged{2 * holes, holes, 0.01, 0.3, 0.8, 0.31};
     images.levels = {level};
     report.images = images;
     return report;
@@ -116,6 +117,8 @@ TEST(Targets, AreOfTheFinestLevelAndSayWhyTheyAreMissed) {
     EXPECT_DOUBLE_EQ(*holes.measured[1], 0.4);
     EXPECT_FALSE(holes.is_reached(1));
     EXPECT_NE(holes.why.find("1.9 %"), std::string::npos) << holes.why;
+    EXPECT_EQ(holes.note, "Before any are filled 16 and 0.8");
+    EXPECT_FALSE(target_of(targets, "foreign").measured[1]);
     EXPECT_EQ(target_of(targets, "minutes").printed, "64 h (500 MHz)");
     EXPECT_DOUBLE_EQ(*target_of(targets, "farthest off the mean").measured[0], 0.8);
     EXPECT_TRUE(target_of(targets, "correlation").is_reached(1)) << "a negative one counts by how great it is";
@@ -129,9 +132,17 @@ TEST(Page, HoldsATableOfEveryPlantsAndNoMoreThanWasMeasured) {
     std::string page = wang_page_html({one, {}, charts, false});
     for (const char* part : {"Figure 2: sunflowers", "not measured", "gnuplot was not installed", "a single tile"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_EQ(page.find("Glossy plants"), std::string::npos);
+    one.plants[0].gloss = report_of(0, 0), one.plants[0].gloss_none = report_of(0, 0);
+    for (auto* report : {&one.plants[0].gloss, &one.plants[0].gloss_none})
+        (*report)->images->all.own = Judged{0, 0, 0, 0.375, 0.8125, 0};
+    std::string glossy = wang_page_html({one, {}, charts, false});
+    EXPECT_NE(glossy.find("Glossy plants"), std::string::npos);
+    EXPECT_NE(glossy.find(short_number(0.8125)), std::string::npos);
     std::string levels = levels_csv(one);
-    EXPECT_NE(levels.find("sunflowers,paper,300,0,0,0,0,0,0.15,0.08,0,0.01,0.1,,,,\n"), std::string::npos) << levels;
-    EXPECT_NE(levels.find("sunflowers,own,300,0,0,0,0,0,0.019,,,,,,,,\n"), std::string::npos) << levels;
+    EXPECT_NE(levels.find("sunflowers,paper,300,0,0,0,0,0,0.15,0.16,0.08,0.01,0.3,0.8,0.31,,,,,,\n"), std::string::npos)
+        << levels;
+    EXPECT_NE(levels.find("sunflowers,own,300,0,0,0,0,0,0.019,,,,,,,,,,,,\n"), std::string::npos) << levels;
     EXPECT_NE(planting_csv(one).find("sunflowers,own,corner,0.30000000000000004,0.5\n"), std::string::npos);
 }
 

@@ -23,7 +23,8 @@ struct Surface {
                                          // surface of this texture name only; none if it is missing
     bool is_alpha_masked = false;        // texels of less opacity than alpha_cutoff are holes
     float alpha_cutoff = 0.5f;
-    bool is_two_sided = false;  // drawn from behind too
+    bool is_two_sided = false;          // drawn from behind too
+    float roughness = 1, metallic = 0;  // as glTF has them, 0..1; these where a file does not say
 };
 
 // Indices of one face's three corners.

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "formats/result.h"
@@ -23,7 +24,7 @@ constexpr size_t kPacket = 16;
 struct Mask {
     uint32_t width_px = 0, height_px = 0;
     std::vector<uint8_t> opacity;  // [height, width]
-    uint16_t least = 128;  // above 255: holes all over
+    uint16_t least = 128;          // above 255: holes all over
 };
 
 struct Mesh {
@@ -56,9 +57,11 @@ struct Hit {
 // How copies are kept: each with triangles of its own (a half faster), or as instances of one tree for each mesh (little memory).
 enum class Layout { flattened, instances };
 
-// Which of a processor's instructions are used: the best that it has, or those that all have, so that a ray hits the same on every
-// one, to the last bit.
+// Which of a processor's instructions are used: the best that it has, or those that all have, so that a ray hits the same on
+// every one, to the last bit.
 enum class Instructions { best, everywhere };
+// "everywhere", or which are the best of this processor: "avx512", "avx2", "avx", "sse4.2" or "sse2".
+std::string_view name_of(Instructions instructions);
 
 // What a flattened layout of these copies takes about, in bytes (Embree 3.13: 110 to 130 a triangle).
 uint64_t flattened_bytes(std::span<const Mesh> meshes, std::span<const Copy> copies);

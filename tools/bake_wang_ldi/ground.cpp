@@ -79,6 +79,8 @@ Result<GroundDone> make_ground(const GroundArgs& args, const command::Common& co
     auto planting = done.recipe.is_as_paper ? wang_ldi::plant_as_paper(done.ground.set, done.recipe.plant, done.plant)
                                             : wang_ldi::plant(done.ground.set, done.recipe.plant, done.plant);
     if (!planting) return at_recipe(planting.error());
+    if (auto fits = wang_ldi::check_size(*planting); !fits)
+        return tl::unexpected(Error{fits.error().exit, args.recipe + ": " + fits.error().message});
     done.ground.planting = std::move(*planting), done.plant_s = seconds_since(begin);
 
     begin = std::chrono::steady_clock::now();

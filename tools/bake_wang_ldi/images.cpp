@@ -24,7 +24,8 @@ void add_cell_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--fov-y-deg", args.fov_y_deg, "Its field of view from top to bottom")
         ->check(command::number_in(1, 170))
         ->capture_default_str();
-    app.add_option("--error-px", args.error_px, "How wide a sample may be in it where its level begins")
+    app.add_option("--error-px", args.error_px,
+                   "How wide a sample may be in the middle of it, from where its level begins to be shown")
         ->check(command::number_in(0.01, 1000))
         ->capture_default_str();
     app.add_option("--eye-low-m", args.eye_low_m, "Eyes are so high above the ground at least")
@@ -41,8 +42,18 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
         ->check(command::number_in(1.05, 4))
         ->capture_default_str();
     app.add_option("--direction-px", args.direction_px,
-                   "By so many pixels a tile's rim may turn within the images of one direction")
+                   "By so many pixels, in the middle of the picture, a tile's rim may turn between the middle of a direction and "
+                   "where its images end")
         ->check(command::number_in(0.1, 1e5))
+        ->capture_default_str();
+    app.add_option("--level-fade", args.level_fade,
+                   "Levels are sampled for so much beyond their own distances, for players that fade one into the next there: a "
+                   "share of the distance (0 to 0.5; the player's --fade)")
+        ->check(command::number_in(0, 0.5))
+        ->capture_default_str();
+    app.add_option("--direction-fade", args.direction_fade,
+                   "Likewise directions, a share of the angle between two (the player's --direction-fade)")
+        ->check(command::number_in(0, 0.5))
         ->capture_default_str();
     app.add_option("--unseen", args.unseen, "Rays stop when so much of what the eyes see is not yet met, as is estimated")
         ->check(command::number_in(1e-4, 0.9))
@@ -54,17 +65,39 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
         app, "--ray-memory", args.ray_memory_bytes,
         "A tile and its neighbours that take more for rays are kept as instances: slower, and the last bit of "
         "a sample may differ (default: 4G)");
+    app.add_option(
+           "--instructions", args.instructions,
+           "best: the fastest that this processor has for rays; on others the last bits of samples differ, and their parts "
+           "are not taken. everywhere: those that all have, for the same samples on all, in a quarter more time")
+        ->check(CLI::IsMember({"best", "everywhere"}))
+        ->capture_default_str();
     app.add_option("--textures", args.textures,
                    "Texels a side of each tile's directional textures, for beyond the farthest images: 1, 2, 4 .. 256, or none")
         ->capture_default_str();
+    app.add_option("--texture-error", args.texture_error,
+                   "Rays stop when the colours of a texture's texels are so certain: their standard error over their mean")
+        ->check(command::number_in(1e-3, 1))
+        ->capture_default_str();
     app.add_flag("--border-images", args.has_border_images, "Besides, images of each tile alone, for where the planting ends");
-    app.add_option("--judge", args.judged_views, "Warp each image for so many views and say how it differs from what rays see")
-        ->check(CLI::Range(0u, 10000u));
+    app.add_option(
+           "--judge", args.judged_views,
+           "Warp images for so many random views, spread evenly over levels, directions and tiles, and say how they differ "
+           "from what rays see: holes, E (LDR-FLIP)")
+        ->check(CLI::Range(0u, 1000000u));
+    app.add_option("--trial", args.trial_tiles,
+                   "Bake the images of so many tiles only, and no file: to see what all take and how good they are")
+        ->check(CLI::Range(1u, 65536u));
 }
 
 void add_light_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--light", args.light, "baked: sun and sky in the colours. later: colours as they are, and normals")
         ->check(CLI::IsMember({"baked", "later"}))
+        ->capture_default_str();
+    app.add_option(
+           "--gloss", args.gloss,
+           "by-direction: glossy surfaces (glTF's factors, or roughness and metallic in the recipe) as the middle of each "
+           "image's eyes sees them. none: as if they sent light back evenly")
+        ->check(CLI::IsMember({"by-direction", "none"}))
         ->capture_default_str();
     app.add_option("--sun-heading-deg", args.sun_heading_deg, "Where the sun stands, clockwise from north")
         ->check(command::number_in(-360, 360))
@@ -104,6 +137,7 @@ Result<wang_ldi::Models> read_models(const GroundDone& ground, const ImageArgs& 
     wang_ldi::Models models;
     for (size_t m = 0; m < ground.recipe.files.size(); ++m) {
         const std::string& path = ground.recipe.files[m];
+        options.roughness = ground.recipe.roughness[m], options.metallic = ground.recipe.metallic[m];
         auto file = mesh::open_mesh(path);
         if (!file) return tl::unexpected(file.error());
         if (auto added = wang_ldi::add_model(file->mesh, options, models, &trimmed); !added)
@@ -156,15 +190,21 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     double focal_px = args.height_px / (2 * std::tan(args.fov_y_deg * M_PI / 360));
     bake.levels.set.cell = {args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m, focal_px, args.error_px};
     bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
-    bake.sampling.unseen_goal = args.unseen;
-    bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views;
+    bake.levels.set.level_fade = float(args.level_fade), bake.levels.set.direction_fade = float(args.direction_fade);
+    bake.sampling.unseen_goal = args.unseen, bake.textures.error_goal = args.texture_error;
+    bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views, bake.trial_tiles = args.trial_tiles;
     bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
+    bake.has_gloss = args.gloss == "by-direction";
     double heading = args.sun_heading_deg * M_PI / 180, elevation = args.sun_elevation_deg * M_PI / 180;
     bake.light.to_sun =
         glm::vec3(std::sin(heading) * std::cos(elevation), std::cos(heading) * std::cos(elevation), std::sin(elevation));
     bake.light.sun_rays = args.sun_rays, bake.light.sky_rays = args.sky_rays;
-    bake.memory_bytes = args.ray_memory_bytes;
-    bake.seed = seed, bake.parts_folder = args.parts.empty() ? output + ".parts" : args.parts;
+    if (args.instructions == "everywhere") bake.instructions = rays::Instructions::everywhere;
+    bake.memory_bytes = args.ray_memory_bytes, bake.version = command::version();
+    bake.seed = seed, bake.parts_folder = args.parts;
+    if (args.parts.empty() && args.trial_tiles == 0) bake.parts_folder = output + ".parts";
+    if (args.trial_tiles > 0 && !args.part.empty())
+        return bad_command("--trial {} and --part {}: give one of them", args.trial_tiles, args.part);
     if (args.constants == "paper") take_paper_constants(bake);
     return bake;
 }
@@ -187,12 +227,17 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     add("view", fmt::format("{} px, {} deg, {} px allowed", args.height_px, args.fov_y_deg, args.error_px));
     add("eyes", fmt::format("{} to {} m up, {} to {} m away", args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m));
     add("level-ratio", fmt::format("{}", args.level_ratio)), add("direction-px", fmt::format("{}", args.direction_px));
+    if (args.constants != "paper") add("fades", fmt::format("levels {}, directions {}", args.level_fade, args.direction_fade));
     add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
     add("textures", args.textures);
+    if (args.textures != "none") add("texture-error", fmt::format("{}", args.texture_error));
     if (args.light == "baked")
         add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
                                args.sun_elevation_deg, args.sun_rays, args.sky_rays));
     add("leaf-transmission", fmt::format("{}", args.leaf_transmission));
+    if (args.gloss != ImageArgs().gloss) add("gloss", args.gloss);
+    auto instructions = args.instructions == "everywhere" ? rays::Instructions::everywhere : rays::Instructions::best;
+    add("instructions", std::string(rays::name_of(instructions)));
     if (args.leaves != ImageArgs().leaves) add("leaves", args.leaves);
     if (args.has_border_images) add("border-images", "true");
     if (args.ray_memory_bytes != ImageArgs().ray_memory_bytes) add("ray-memory", fmt::format("{}", args.ray_memory_bytes));

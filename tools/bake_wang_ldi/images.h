@@ -13,11 +13,13 @@ struct ImageArgs {
     std::string constants = "chosen";
     double height_px = 720, fov_y_deg = 60, error_px = 1;  // of the picture that is thought of
     double eye_low_m = 1.5, eye_high_m = 1.9, nearest_m = 0, farthest_m = 0;
-    double level_ratio = 1.5, direction_px = 96, unseen = 0.02;
-    uint32_t neighbourhoods = 1, judged_views = 0;
+    double level_ratio = 1.5, direction_px = 170, unseen = 0.02;
+    double level_fade = 0.05, direction_fade = 0.1;
+    uint32_t neighbourhoods = 1, judged_views = 0, trial_tiles = 0;
     std::string textures = "32";  // texels a side, or "none"
-    std::string leaves = "trimmed";
-    std::string light = "baked";
+    double texture_error = 0.04;
+    std::string leaves = "trimmed", instructions = "best";
+    std::string light = "baked", gloss = "by-direction";
     double sun_heading_deg = 140, sun_elevation_deg = 50, leaf_transmission = 0.35;
     uint32_t sun_rays = 8, sky_rays = 32;
     bool has_border_images = false;

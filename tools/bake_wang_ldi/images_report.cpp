@@ -10,22 +10,16 @@ using nlohmann::ordered_json;
 using wang_ldi::ImageRow;
 using wang_ldi::Judgement;
 
-// Sums over images; errors weighted by their pixels, the greatest 99th percentile.
+// Sums over images.
 struct Total {
     uint64_t images = 0, samples = 0, bytes = 0, rays = 0, hits = 0;
     double unseen_most = 0, unseen_sum = 0;
     Judgement own, foreign;
 
-    static void add(const Judgement& from, Judgement& to) {
-        double pixels = double(to.pixels + from.pixels);
-        if (pixels > 0) to.mean_error = (to.mean_error * double(to.pixels) + from.mean_error * double(from.pixels)) / pixels;
-        to.pixels += from.pixels, to.holes += from.holes, to.deeper += from.deeper, to.nearer += from.nearer;
-        to.p99_error = std::max(to.p99_error, from.p99_error);
-    }
     void add(const ImageRow& row) {
         ++images, samples += row.samples, bytes += row.stored_bytes, rays += row.rays, hits += row.hits;
         unseen_most = std::max(unseen_most, row.unseen_share), unseen_sum += row.unseen_share;
-        add(row.judgement, own), add(row.foreign, foreign);
+        own.add(row.judgement), foreign.add(row.foreign);
     }
 };
 
@@ -35,8 +29,10 @@ ordered_json judgement_json(const Judgement& judgement) {
             {"hole_share", double(judgement.holes) / pixels},
             {"deeper_share", double(judgement.deeper) / pixels},
             {"nearer_share", double(judgement.nearer) / pixels},
-            {"mean_luma_error", judgement.mean_error},
-            {"p99_luma_error", judgement.p99_error}};
+            {"filled_hole_share", double(judgement.holes_left) / pixels},
+            {"e_mean", judgement.mean_error()},
+            {"e_p99", judgement.p99_error()},
+            {"unfilled_e_mean", judgement.mean_unfilled_error()}};
 }
 
 ordered_json total_json(const Total& total) {
@@ -48,8 +44,8 @@ ordered_json total_json(const Total& total) {
                       {"hits", total.hits},
                       {"unseen_share_mean", total.images > 0 ? total.unseen_sum / double(total.images) : 0},
                       {"unseen_share_most", total.unseen_most}};
-    if (total.own.pixels > 0) json["among_its_neighbours"] = judgement_json(total.own);
-    if (total.foreign.pixels > 0) json["among_foreign_neighbours"] = judgement_json(total.foreign);
+    if (total.own.error_pixels > 0) json["among_its_neighbours"] = judgement_json(total.own);
+    if (total.foreign.error_pixels > 0) json["among_foreign_neighbours"] = judgement_json(total.foreign);
     return json;
 }
 
@@ -66,8 +62,8 @@ ordered_json textures_json(const wang_ldi::ImageReport& report) {
         rays += row.rays, hits += row.hits, unseen += row.unseen_share, error += row.standard_error;
         unseen_most = std::max(unseen_most, row.unseen_share), error_most = std::max(error_most, row.standard_error);
         auto of = double(row.judgement.pixels);
-        pixels += row.judgement.pixels, coverage += of * row.judgement.coverage;
-        drawn += of * row.judgement.drawn_coverage, off += of * row.judgement.mean_error;
+        pixels += row.judgement.pixels, off += of * row.judgement.mean_error;
+        coverage += row.judgement.coverage, drawn += row.judgement.drawn_coverage;
     }
     auto count = double(std::max<size_t>(1, report.textures.size()));
     ordered_json json{{"count", report.textures.size()},
@@ -80,8 +76,8 @@ ordered_json textures_json(const wang_ldi::ImageReport& report) {
                       {"standard_error_most", error_most}};
     if (pixels > 0)
         json["judged"] = {{"pixels", pixels},
-                          {"coverage", coverage / double(pixels)},
-                          {"drawn_coverage", drawn / double(pixels)},
+                          {"coverage", coverage / count},
+                          {"drawn_coverage", drawn / count},
                           {"mean_luma_error", off / double(pixels)}};
     return json;
 }
@@ -93,6 +89,7 @@ std::string images_json(const wang_ldi::ImageReport& report) {
     json["directions"] = report.set.direction_count, json["contexts"] = report.set.context_count;
     json["eyes_m"] = {report.set.cell.eye_low_m, report.set.cell.eye_high_m};
     json["distances_m"] = {report.set.cell.nearest_m, report.set.cell.farthest_m};
+    if (report.trial_tiles > 0) json["trial_tiles"] = report.trial_tiles;
     json["images_above_goal"] = report.above_goal;
     json["taken_from_parts"] = report.taken_from_parts, json["baked"] = report.made, json["seconds"] = report.seconds;
     if (report.texture_side_px > 0) json["textures"] = textures_json(report);
@@ -140,13 +137,15 @@ void say_images(const wang_ldi::ImageReport& report, const command::Common& comm
         command::note(common, fmt::format("{} of {} images have more unseen than --unseen asks for, {:.2f} % at most: they took "
                                           "the most rays that are shot; ask for more error or a greater nearest distance",
                                           report.above_goal, total.images, 100 * total.unseen_most));
-    if (total.own.pixels > 0) {
-        auto share = [](const Judgement& judgement) {
-            return 100 * double(judgement.holes) / double(std::max<uint64_t>(1, judgement.pixels));
+    if (total.own.error_pixels > 0) {
+        auto share = [](uint64_t of, const Judgement& all) {
+            return 100 * double(of) / double(std::max<uint64_t>(1, all.pixels));
         };
-        command::note(common,
-                      fmt::format("warped: holes in {:.2f} % of pixels, {:.2f} % among foreign neighbours; luma off by {:.3f}",
-                                  share(total.own), share(total.foreign), total.own.mean_error));
+        for (const Judgement* judged : {&total.own, &total.foreign})
+            command::note(common, fmt::format("warped among {} neighbours: holes in {:.2f} % of pixels, {:.2f} % when filled; E "
+                                              "{:.3f}, p99 {:.3f}",
+                                              judged == &total.own ? "its own" : "foreign", share(judged->holes, *judged),
+                                              share(judged->holes_left, *judged), judged->mean_error(), judged->p99_error()));
     }
     if (report.texture_side_px > 0) {
         ordered_json textures = textures_json(report);

@@ -18,10 +18,10 @@ struct Args {
     bake_wang_ldi::ImageArgs images;
 
     bool has_images() const { return ground.only != "planting"; }
-    bool is_part() const { return has_images() && !images.part.empty(); }
+    bool makes_no_file() const { return has_images() && (!images.part.empty() || images.trial_tiles > 0); }
 };
 
-// 0 bytes of a part, which makes no file.
+// 0 bytes of a part or a trial, which makes no file.
 Result<uint64_t> write_file(const Args& args, const bake_wang_ldi::GroundDone& done, const command::Common& common,
                             wang_ldi::ImageReport& report) {
     auto provenance = bake_wang_ldi::provenance_of(args.ground, done);
@@ -37,7 +37,7 @@ Result<uint64_t> write_file(const Args& args, const bake_wang_ldi::GroundDone& d
         report = std::move(*added);
         bake_wang_ldi::add_image_options_in_words(args.images, *provenance);
     }
-    if (args.is_part()) return 0;
+    if (args.makes_no_file()) return 0;
     if (auto added = writer->add_provenance(*provenance); !added) return tl::unexpected(added.error());
     auto bytes = writer->commit();
     if (bytes) report.parts.remove_all(report.part_count);

@@ -24,6 +24,7 @@ ordered_json tiles_json(const GroundDone& done) {
                       {"disagreeing_neighbours", figures.neighbours.disagreeing},
                       {"border_tiles", figures.border_tiles},
                       {"border_bytes", figures.border_bytes}};
+    json["repeated_densities"] = wang_ldi::repeated_densities(done.ground.set);
     json["random_access_block"] = figures.block > 0 ? ordered_json(figures.block) : ordered_json();
     if (done.search.candidates > 0)
         json["search"] = {{"candidates", done.search.candidates},
@@ -95,6 +96,11 @@ void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t byte
                               "overlap in {} neighbourhoods{}",
                               figures.zones.corner, figures.zones.edge, figures.zones.inside, figures.relative_radius,
                               figures.overlaps.tight_overlaps, figures.overlaps.neighbourhoods, room));
+    for (float density : wang_ldi::repeated_densities(done.ground.set))
+        command::note(common,
+                      fmt::format("ground of density {:g} is one tile over and over: one corner colour has it; give it to two in "
+                                  "corner_density, or ask for --variants",
+                                  density));
     if (done.search.candidates > 0)
         command::detail(
             common, fmt::format("tiles (north east south west): {}; of {} sets {:.4f} to {:.4f}",

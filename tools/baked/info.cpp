@@ -208,7 +208,7 @@ int info(const InfoArgs& args, const command::Common& common) {
     }
     if (!args.sheet.empty()) {
         if (!ground) return command::fail("baked info", no_sheet(args.file));
-        auto written = write_sheet(args.file, *ground, images ? &*images : nullptr, args.sheet);
+        auto written = write_sheet(args.file, *ground, images ? &*images : nullptr, textures ? &*textures : nullptr, args.sheet);
         if (!written) return command::fail("baked info", written.error());
     }
     json["provenance"] = provenance_json(*provenance);

@@ -8,6 +8,7 @@
 #include "tools/bake/wang_ldi/evenness.h"
 #include "tools/bake/wang_ldi/planting_check.h"
 #include "tools/bake/wang_ldi/sheet.h"
+#include "tools/bake/wang_ldi/texture_sheet.h"
 #include "tools/bake/wang_ldi/tile_sets.h"
 #include "tools/baked/info_images.h"
 
@@ -68,11 +69,12 @@ void print_ground(const wang_ldi::PlantedTiles& ground) {
     fmt::print("planting: {:.1f} objects a tile ({:.1f} of corners, {:.1f} of edges, {:.1f} inside), of {} models\n",
                double(counts.objects) / tiles, double(counts.owned[0]) / tiles, double(counts.owned[1] + counts.owned[2]) / tiles,
                double(counts.owned[3]) / tiles, ground.planting.models.size());
-    fmt::print("promise: {} tight radii overlap in any of {} neighbourhoods\n", overlaps.tight_overlaps, overlaps.neighbourhoods);
+    fmt::print("promise: {}{} tight radii overlap in any of {} neighbourhoods\n", overlaps.tight_overlaps,
+               overlaps.is_cut_short ? " or more" : "", overlaps.neighbourhoods);
 }
 
 Result<void> write_sheet(const std::string& file, const wang_ldi::PlantedTiles& ground, const wang_ldi::ImageReader* images,
-                         const std::string& folder) {
+                         const wang_ldi::TextureSet* textures, const std::string& folder) {
     auto made = wang_ldi::sheet_of(ground, 1);
     if (!made) return tl::unexpected(made.error());
     std::vector<NamedPicture> sheet;
@@ -82,6 +84,8 @@ Result<void> write_sheet(const std::string& file, const wang_ldi::PlantedTiles& 
         if (!of_images) return tl::unexpected(of_images.error());
         for (NamedPicture& page : *of_images) sheet.push_back(std::move(page));
     }
+    if (textures)
+        for (wang_ldi::SheetPicture& page : wang_ldi::sheet_of(*textures)) sheet.push_back({page.name, std::move(page.picture)});
     std::error_code reason;
     std::filesystem::create_directories(folder, reason);
     if (reason) return cannot_write("{}: cannot make the folder: {}", folder, reason.message());

@@ -91,6 +91,7 @@ std::string images_json(const wang_ldi::ImageReader& images) {
     json["heights_m"] = {set.low_m, set.high_m};
     json["cell"] = {{"eye_low_m", set.cell.eye_low_m},   {"eye_high_m", set.cell.eye_high_m}, {"nearest_m", set.cell.nearest_m},
                     {"farthest_m", set.cell.farthest_m}, {"focal_px", set.cell.focal_px},     {"error_px", set.cell.error_px}};
+    json["level_fade"] = double(set.level_fade), json["direction_fade"] = double(set.direction_fade);
     json["has_normals"] = set.has_normals, json["has_splats"] = set.has_splats;
     for (size_t k = 0; k < set.levels.size(); ++k) {
         const wang_ldi::Level& level = set.levels[k];
@@ -114,8 +115,12 @@ void print_images(const wang_ldi::ImageReader& images) {
         fmt::print("  level {:<2} {:>5} px a side from {:>8.2f} m on: {:>12} samples, {:>12} bytes, {:.2f} % unseen\n", k,
                    set.levels[k].side_px, double(set.levels[k].nearest_m), with_commas(totals.levels[k].samples),
                    with_commas(totals.levels[k].stored_bytes), 100 * totals.levels[k].unseen_mean());
-    fmt::print("right for eyes {:g} to {:g} m up, {:.4g} to {:.4g} m from a tile's middle, {:.4g} px a unit of tangent\n",
-               set.cell.eye_low_m, set.cell.eye_high_m, set.cell.nearest_m, set.cell.farthest_m, set.cell.focal_px);
+    fmt::print(
+        "right for eyes {:g} to {:g} m up, {:.4g} to {:.4g} m from a tile's middle, {:.4g} px a unit of tangent; for fades of "
+        "{:g} "
+        "of a level's distance and {:g} of a direction's step\n",
+        set.cell.eye_low_m, set.cell.eye_high_m, set.cell.nearest_m, set.cell.farthest_m, set.cell.focal_px, set.level_fade,
+        set.direction_fade);
 }
 
 Result<std::vector<NamedPicture>> image_sheet(const std::string& file, const wang_ldi::ImageReader& images,

@@ -44,7 +44,7 @@ int verify_ground(const VerifyArgs& args, const container::Reader& file, const c
     auto read = read_all(file, common);
     if (!read) return command::fail(kName, read.error());
     wang_ldi::OverlapReport overlaps = wang_ldi::check_overlaps(ground->set, ground->planting);
-    bool holds = overlaps.tight_overlaps == 0;
+    bool holds = overlaps.tight_overlaps == 0 && !overlaps.is_cut_short;
     if (common.json) {
         nlohmann::ordered_json json{{"file", args.file},
                                     {"holds", holds},
@@ -55,9 +55,9 @@ int verify_ground(const VerifyArgs& args, const container::Reader& file, const c
                                     {"textures", read->textures}};
         fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
-        fmt::print("{} tight radii overlap in any of {} neighbourhoods; {} images of {} samples and {} textures are whole\n",
-                   overlaps.tight_overlaps, with_commas(overlaps.neighbourhoods), with_commas(read->images),
-                   with_commas(read->samples), with_commas(read->textures));
+        fmt::print("{}{} tight radii overlap in any of {} neighbourhoods; {} images of {} samples and {} textures are whole\n",
+                   overlaps.tight_overlaps, overlaps.is_cut_short ? " or more" : "", with_commas(overlaps.neighbourhoods),
+                   with_commas(read->images), with_commas(read->samples), with_commas(read->textures));
         fmt::print("{}\n", holds ? "every promise holds" : "a promise is broken");
     }
     return int(holds ? Exit::done : Exit::answer_is_no);

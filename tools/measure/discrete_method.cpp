@@ -4,8 +4,8 @@
 #include <array>
 #include <cassert>
 
+#include "runtime/discrete/budget.h"
 #include "runtime/discrete/draw_frames.h"
-#include "runtime/view/error_budget.h"
 #include "tools/measure/honesty/chain_honesty.h"
 
 namespace overlook::measure {
@@ -37,25 +37,29 @@ class Chain : public Method {
         frames_ = std::move(*frames);
     }
 
+    void prepare(const view::Camera& camera, const gl::Target& target) override {
+        [[maybe_unused]] Result<void> prepared = frames_->prepare(camera, target);
+        assert(prepared);
+    }
+
     void decide(const view::Camera& camera, uint32_t frame) override {
-        if (controller_) ask_for(controller_->error_px());
         for (size_t i = 0; i < world_.chains.size(); ++i)
             if (world_.chains[i].moves()) frames_->place(world_.chains[i].placements, i);
+        if (keeper_) ask_for(keeper_->error_px(directors(), camera));
         frames_->decide(camera, double(frame - last_frame_) * world_.step_s, double(frame) * world_.step_s);
-        if (controller_) controller_->frame_done(double(frames_->counts().triangle_count));
+        if (keeper_) keeper_->frame_done(double(frames_->counts().settled_triangle_count));
         last_frame_ = frame;
         camera_ = camera;
     }
 
     // Within a budget the error asked for goes up and down with what frames cost.
     bool set_triangles(double triangles) override {
-        view::ErrorBudget budget{triangles, asked_.select.error_px, false};
         if (triangles <= 0) {
-            controller_.reset();
-        } else if (controller_) {
-            controller_->set_budget(budget);
+            keeper_.reset();
+        } else if (keeper_) {
+            keeper_->set_triangles(triangles);
         } else {
-            controller_.emplace(budget);
+            keeper_.emplace(triangles, asked_.select.error_px);
         }
         return true;
     }
@@ -85,6 +89,11 @@ class Chain : public Method {
     }
 
   private:
+    std::vector<const discrete::Director*> directors() const {
+        std::vector<const discrete::Director*> all;
+        for (size_t i = 0; i < world_.chains.size(); ++i) all.push_back(&frames_->director(i));
+        return all;
+    }
     void ask_for(double error_px) {
         discrete::FrameOptions options = asked_;
         options.select.error_px = error_px;
@@ -95,7 +104,7 @@ class Chain : public Method {
 
     World& world_;
     discrete::FrameOptions asked_;
-    std::optional<view::ErrorController> controller_;  // within a budget
+    std::optional<discrete::BudgetKeeper> keeper_;  // within a budget
     std::unique_ptr<discrete::FrameDrawer> frames_;
     uint32_t last_frame_ = 0;
     view::Camera camera_;

@@ -28,12 +28,12 @@ std::string shaders_hash(const World& world) {
     std::string ground_text = std::string(ground::kTerrainVertexInputs) + ground::kRasterCells + ground::kTerrainVertexMain +
                               ground::kAir + ground::kTerrainFragment + ground::kSkyRowFragment + ground::kSkyFragment;
     if (world.is_planted()) {
-        return hash_of(shared + ground_text + discrete::shaders::kItems + discrete::shaders::kVertex +
+        return hash_of(shared + ground_text + discrete::shaders::kItemInputs + discrete::shaders::kVertex +
                        discrete::shaders::kFragment + discrete::shaders::kOnePictureMain +
                        fmt::format("{} {}", kPlantError_px, kPlantsUpTo_m));
     }
     if (world.is_chain()) {
-        return hash_of(shared + discrete::shaders::kItems + discrete::shaders::kVertex + discrete::shaders::kFragment +
+        return hash_of(shared + discrete::shaders::kItemInputs + discrete::shaders::kVertex + discrete::shaders::kFragment +
                        discrete::shaders::kOnePictureMain);
     }
     if (world.is_mesh()) {

@@ -314,7 +314,7 @@ TEST(Settings, AreThoseOfTheVariant) {
         return std::any_of(kinds.begin(), kinds.end(), [&](const SettingKind& kind) { return kind.name == name; });
     };
     for (const char* remedy : {"keep-hidden", "wide-ids", "wide-depth", "weigh-by-phase", "split-parities", "move-instances",
-                               "search", "suit-grain", "softness"}) {
+                               "search", "suit-grain", "ease-ends", "softness"}) {
         EXPECT_TRUE(has(Variant::fsi, remedy)) << remedy;
         EXPECT_FALSE(has(Variant::fsi_paper, remedy)) << remedy;
         EXPECT_FALSE(has(Variant::blend, remedy)) << remedy;

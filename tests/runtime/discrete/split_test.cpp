@@ -41,8 +41,10 @@ TEST(Split, LeavesNothingOutOfASide) {
             const std::vector<Bunch>& bunches = facts.levels[size_t(&level - chain.levels.data())].bunches;
             for (bool is_along : {true, false}) {
                 std::vector<TriangleRun> runs;
-                uint64_t count = append_side(bunches, placement, eye_m, normal, is_along, runs);
+                glm::dvec3 inwards = is_along ? normal : -normal;
+                uint64_t count = append_seen(bunches, placement, eye_m, {&inwards, 1}, runs);
                 EXPECT_LT(count, level.triangle_count());
+                EXPECT_EQ(count, seen_count(bunches, placement, eye_m, {&inwards, 1}));
                 for (uint32_t k = 0; k < level.indices.size(); ++k) {
                     glm::dvec3 from_eye_m = placement.at(position_m(chain, level.vertices[level.indices[k]])) - eye_m;
                     if ((is_along ? 1 : -1) * glm::dot(normal, from_eye_m) <= 0) continue;
@@ -56,6 +58,40 @@ TEST(Split, LeavesNothingOutOfASide) {
         EXPECT_FALSE(
             split_of(facts.levels[0].bunches, facts.levels[1].bunches, placement, {0, 0, 0}, 1, placement.at(1.1 * out), way_m))
             << "too near";
+    }
+}
+
+// Of something large that the picture's sides cut only bunches are drawn that may be seen, and all of what is in the picture.
+TEST(Director, LeavesOutWhatLiesBesideThePicture) {
+    Chain chain = made::sphere_chain(64);
+    std::vector<Placement> one(1);
+    one[0].translation_m = {1.5, 2, -0.5}, one[0].cosine = 0.8, one[0].sine = 0.6;
+    for (Variant variant : {Variant::hard, Variant::fsi, Variant::blend}) {
+        FrameOptions options = defaults_of(variant);
+        options.select.error_px = 1e-3;
+        Director director(facts_of(chain), one, options);
+        for (double heading_deg : {-20.0, -5.0, 50.0, 60.0, 70.0}) {
+            view::Camera camera = camera_at(2);
+            camera.heading_deg = heading_deg;
+            director.decide(camera, kStep_s);
+            const FrameList& frame = director.frame();
+            ASSERT_EQ(frame.items.size(), 1u);
+            const Item& item = frame.items[0];
+            ASSERT_EQ(item.level, 0u);
+            EXPECT_GT(item.run_count, 0u) << heading_deg;
+            EXPECT_LT(frame.triangle_count, chain.levels[0].triangle_count()) << heading_deg;
+            std::vector<bool> is_drawn(chain.levels[0].indices.size());
+            for (const TriangleRun& run : frame.runs) std::fill_n(is_drawn.begin() + run.first_index, run.index_count, true);
+            EXPECT_EQ(uint64_t(std::count(is_drawn.begin(), is_drawn.end(), true)), 3 * frame.triangle_count);
+            std::array<glm::dvec3, 4> sides = view::sides_of(camera);
+            for (size_t k = 0; k < is_drawn.size(); ++k) {
+                const Vertex& corner = chain.levels[0].vertices[chain.levels[0].indices[k]];
+                glm::dvec3 from_eye_m = one[0].at(position_m(chain, corner)) - camera.position_m;
+                bool is_inside = std::all_of(sides.begin(), sides.end(),
+                                             [&](const glm::dvec3& inwards) { return glm::dot(inwards, from_eye_m) >= 0; });
+                EXPECT_TRUE(is_drawn[k] || !is_inside) << heading_deg << " " << k;
+            }
+        }
     }
 }
 

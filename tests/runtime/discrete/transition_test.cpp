@@ -22,6 +22,20 @@ TEST(TwoRamps, AlwaysKeepOneOfTheLevelsWhole) {
     EXPECT_EQ(visible_share_of_old(1), 0);
 }
 
+TEST(Easing, SetsOffAndComesToRestAtHalfThePaceOfItsMiddle) {
+    EXPECT_EQ(eased(0), 0);
+    EXPECT_EQ(eased(1), 1);
+    EXPECT_NEAR(eased(0.5), 0.5, 1e-12);
+    auto step_at = [](int frame) { return eased((frame + 1) / 8.0) - eased(frame / 8.0); };
+    for (int frame = 1; frame < 7; ++frame) EXPECT_NEAR(step_at(frame), 1 / 7.0, 1e-12) << frame;
+    EXPECT_NEAR(step_at(0), 1 / 14.0, 1e-12);
+    EXPECT_NEAR(step_at(7), 1 / 14.0, 1e-12);
+    for (double phase = 0; phase < 1; phase += 1.0 / 512) {
+        EXPECT_LT(eased(phase), eased(phase + 1.0 / 512));
+        EXPECT_NEAR(eased(1 - phase), 1 - eased(phase), 1e-12) << "one that turns back looks as before";
+    }
+}
+
 TEST(Transition, RestsWhileNothingElseIsWanted) {
     Transition resting{3, 3, 0};
     EXPECT_EQ(step(resting, 3, 1, kFade_s, false), resting);

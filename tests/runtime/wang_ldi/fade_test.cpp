@@ -21,7 +21,8 @@ ImageSet paper_set() {
 }
 LadderOptions all_stages() {
     LadderOptions options;
-    options.geometry_to_m = 2.5, options.texture_from_m = 40, options.colour_from_m = 900, options.radius_m = 5000;
+    options.geometry_to_m = 2.5, options.texture_from_m = 40, options.texel_from_m = 32, options.texture_levels = 4;
+    options.radius_m = 1200;
     return options;
 }
 // Shares of what is drawn at a distance, by stage and level.
@@ -37,7 +38,7 @@ std::map<std::pair<Stage, uint32_t>, uint32_t> shares_at(const Ladder& ladder, d
 
 TEST(Ladder, HasEveryStageInOrderAndNoBandsThatOverlap) {
     Ladder ladder = ladder_of(paper_set(), all_stages());
-    ASSERT_EQ(ladder.rungs.size(), 1 + 7 + 1 + 1 + 1u);
+    ASSERT_EQ(ladder.rungs.size(), 1 + 7 + 4 + 2 + 1u);
     EXPECT_EQ(ladder.rungs.front().stage, Stage::geometry);
     EXPECT_EQ(ladder.rungs.back().stage, Stage::bare);
     for (size_t r = 1; r < ladder.rungs.size(); ++r) {
@@ -48,6 +49,23 @@ TEST(Ladder, HasEveryStageInOrderAndNoBandsThatOverlap) {
         EXPECT_LT(rung.from_m, rung.fade_to_m);
         EXPECT_LE(rung.fade_to_m - rung.fade_from_m, 0.2 * rung.from_m + 1e-9);
     }
+}
+
+// Textures and colours whose texels are a pixel wide or less.
+TEST(Ladder, HalvesTexturesWithEveryDoublingOfTheDistance) {
+    LadderOptions options = all_stages();
+    options.radius_m = INFINITY;
+    Ladder ladder = ladder_of(paper_set(), options);
+    std::vector<double> from;
+    for (const Rung& rung : ladder.rungs) {
+        if (rung.stage != Stage::texture && rung.stage != Stage::colour) continue;
+        EXPECT_EQ(rung.level, rung.stage == Stage::texture ? from.size() : from.size() - 3);
+        from.push_back(rung.from_m);
+    }
+    ASSERT_GT(from.size(), 10u);
+    EXPECT_EQ(from[0], 40);
+    for (size_t n = 1; n < from.size(); ++n) EXPECT_EQ(from[n], 32 * std::exp2(n));
+    EXPECT_GT(2 * from.back(), kFarthest_m);
 }
 
 TEST(Ladder, WithoutFadesIsTheLevelForEveryDistance) {
@@ -64,11 +82,13 @@ TEST(Ladder, WithoutFadesIsTheLevelForEveryDistance) {
 
 TEST(Ladder, LeavesOutWhatHasNoRoom) {
     LadderOptions options = all_stages();
-    options.geometry_to_m = 6, options.texture_from_m = 8, options.colour_from_m = 8, options.radius_m = 7000;
+    options.geometry_to_m = 6, options.texture_from_m = 8, options.texel_from_m = 0.001, options.radius_m = 8.1;
+    options.texture_levels = 1;
     Ladder ladder = ladder_of(paper_set(), options);
     std::vector<Stage> stages;
     for (const Rung& rung : ladder.rungs) stages.push_back(rung.stage);
     EXPECT_EQ(stages, (std::vector{Stage::geometry, Stage::ldi, Stage::ldi, Stage::colour, Stage::bare}));
+    EXPECT_EQ(ladder.rungs[3].level, 12u);  // so wide is less than a pixel at 8 m
     EXPECT_EQ(ladder.rungs[1].level, 2u);
     EXPECT_EQ(ladder.rungs[1].from_m, 6);
     options = all_stages(), options.radius_m = 9.5;
@@ -81,7 +101,7 @@ TEST(Ladder, SharesAreWholeTogetherAndChangeByLittle) {
     Ladder ladder = ladder_of(paper_set(), all_stages());
     auto before = shares_at(ladder, 0);
     std::map<Stage, int> seen;
-    for (double distance = 0; distance < 6000; distance *= 1.0001, distance += 1e-4) {
+    for (double distance = 0; distance < 1500; distance *= 1.0001, distance += 1e-4) {
         auto shares = shares_at(ladder, distance);
         uint32_t sum = 0;
         for (auto [what, share] : shares) sum += share, ++seen[what.first];

@@ -12,7 +12,7 @@ namespace {
 
 struct FastField : DrawnField {
     std::vector<PreparedLdi> prepared;
-    FarColours far;
+    FarImages far;
 
     explicit FastField(Ground ground_, bool has_splats = false) : DrawnField(std::move(ground_)) {
         images.has_splats = has_splats;
@@ -21,7 +21,7 @@ struct FastField : DrawnField {
                 for (uint32_t s = 0; s < ldi.sample_count(); ++s) ldi.splats.push_back(uint8_t(8 + s * 7 % 40));
             prepared.push_back(PreparedLdi::of(ldi));
         }
-        far = FarColours::of(images, all());
+        far = DrawnField::far();
     }
     PreparedAt at_hand() const {
         return [this](uint64_t index) { return &prepared[index]; };

@@ -86,10 +86,11 @@ struct DrawnField : TestField {
     }
     // To the horizon, with images up to 30 m.
     FieldOptions far_options() const {
-        FieldOptions options = options_to_horizon(images, 415.7);
-        options.ladder.texture_from_m = 30, options.ladder.colour_from_m = 200;
+        FieldOptions options = options_to_horizon(images, 415.7, 0, far().side_px());
+        options.ladder.texture_from_m = 30;
         return options;
     }
+    FarImages far() const { return FarImages(textures_of_images(images, all())); }
 };
 
 inline Warped empty_picture(const view::Camera& camera) {

@@ -209,12 +209,16 @@ TEST(Field, RefusesPartsThatDoNotBelongTogether) {
     EXPECT_EQ(message(test.parts(), options), "a field's blocks of 0.6 of their distance: above 0 and up to 0.5 is needed");
     options = {}, options.ladder.fade_share = NAN;
     message(test.parts(), options);
-    options = {}, options.ladder.texture_from_m = 9, options.ladder.colour_from_m = 8;
+    options = {}, options.ladder.texel_from_m = 0;
     message(test.parts(), options);
     options = {}, options.most_pieces_log2 = 5;
     message(test.parts(), options);
     options = {}, options.texture_side_px = 0;
     message(test.parts(), options);
+    options = {}, options.texture_side_px = 24;
+    EXPECT_EQ(message(test.parts(), options), "textures of 24 pixels a side: a power of two up to 4096 is needed");
+    options = {}, options.texture_side_px = 16;
+    EXPECT_EQ(message(test.parts(), options), "textures of 16 pixels a side with 6 levels");
     options = {}, options.displacement_px = 0;
     message(test.parts(), options);
 }

@@ -101,7 +101,7 @@ TEST(WarpField, InOrderIsAsGoodAsByDepth) {
     for (bool fades : {false, true}) {
         FieldOptions options = fades ? test.far_options() : paper_options(test.images);
         Field field = test.field(options);
-        FarColours far = FarColours::of(test.images, test.all());
+        FarImages far = test.far();
         size_t seen = 0, behind = 0;
         for (double heading = 0; heading < 360; heading += 90) {
             view::Camera camera = on_hills(heading);
@@ -126,7 +126,7 @@ TEST(WarpField, InOrderIsAsGoodAsByDepth) {
 TEST(WarpField, AnyNumberOfThreadsDrawsTheSame) {
     const DrawnField& test = hilly_field();
     Field field = test.field(test.far_options());
-    FarColours far = FarColours::of(test.images, test.all());
+    FarImages far = test.far();
     view::Camera camera = on_hills(70);
     FieldList list = list_of(field, camera);
     ASSERT_GT(list.counts.blocks_listed, 3u);
@@ -169,7 +169,7 @@ TEST(WarpField, WhatIsNotAtHandIsCountedAndLeftOut) {
 TEST(WarpField, WhatIsSkippedWasOutside) {
     const DrawnField& test = hilly_field();
     Field field = test.field(test.far_options());
-    FarColours far = FarColours::of(test.images, test.all());
+    FarImages far = test.far();
     for (double heading : {20.0, 200.0}) {
         view::Camera wide = on_hills(heading), narrow = wide;
         // The same pixels, 200 of 640 to each side of the middle.
@@ -187,51 +187,6 @@ TEST(WarpField, WhatIsSkippedWasOutside) {
             }
         EXPECT_LE(differing, 20u) << "but for rounding";
     }
-}
-
-// Far tiles are texels of their mean colour, on the ground, to the horizon.
-TEST(WarpField, FarTilesAreTheirMeanColourOnTheGround) {
-    const DrawnField& test = flat_field();
-    FarColours far = FarColours::of(test.images, test.all());
-    FieldOptions options = test.far_options();
-    options.ladder.texture_from_m = 0.01, options.ladder.colour_from_m = 0.02;
-    Field field = test.field(options);
-    view::Camera camera = head_camera({0.5, 0.5, 8}, 30);
-    FieldList list = list_of(field, camera);
-    Warped picture = empty_picture(camera);
-    WarpCounts counts = warp_field(camera, field, list, test.all(), Hiding::by_depth, picture, &far);
-    EXPECT_GT(counts.samples, 10000u);
-    view::Axes axes = view::axes_of(camera);
-    double focal = view::focal_px(camera);
-    size_t ground = 0, holes = 0, off = 0;
-    for (uint32_t p = 0; p < picture.colours.size(); ++p) {
-        glm::dvec3 along =
-            axes.forward + axes.right * ((p % 640 + 0.5 - 320) / focal) + axes.up * ((240 - (p / 640 + 0.5)) / focal);
-        if (along.z > -0.01) continue;
-        double z = 3 + double(far.at(0, 0).height_m), t = (z - 8) / along.z;
-        ++ground, holes += picture.colours[p] == 0;
-        off += picture.colours[p] != 0 && std::abs(double(picture.depth_m[p]) - t) > 0.15 * t;
-    }
-    EXPECT_GT(ground, 100000u);
-    EXPECT_LT(double(holes), 0.002 * double(ground));
-    EXPECT_LT(double(off), 0.002 * double(ground));
-    WarpCounts without = warp_field(camera, field, list, test.all(), Hiding::by_depth, picture);
-    EXPECT_EQ(without.samples, 0u);
-}
-
-TEST(WarpField, AMeanColourIsOneOfLight) {
-    ImageSet set = flat_field().images;
-    Ldi ldi = mounds_image(set, {0, 0, uint32_t(set.levels.size() - 1), 0});
-    ldi.palette.assign(15, {0, 255, 100});
-    for (size_t s = 0; s < ldi.colours.size(); ++s) ldi.colours[s] = uint8_t(s % 2);
-    ldi.palette[1] = {255, 255, 100};
-    FarColours far = FarColours::of(set, [&](uint64_t index) { return which_of(set, index).tile == 2 ? &ldi : nullptr; });
-    EXPECT_EQ(far.at(1, 3).colour, 0u);
-    EXPECT_NEAR(int(far.at(2, 3).colour & 0xff), 188, 1);
-    EXPECT_EQ(far.at(2, 3).colour >> 8, 0xff64ffu);
-    double sum = 0;
-    for (uint16_t step : ldi.heights) sum += set.low_m + step * double(set.levels.back().height_step_m);
-    EXPECT_NEAR(double(far.at(2, 3).height_m), sum / ldi.sample_count(), 1e-5);
 }
 
 }  // namespace

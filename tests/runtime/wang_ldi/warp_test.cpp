@@ -189,7 +189,7 @@ TEST(Warp, ANearerColumnHidesAFartherOneThatTheSameRayPasses) {
     ImageSet set = set_of(1.5f);  // a square's diagonal, so that a ray through a corner meets the splat
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(0, 1);
-    int across = 0;
+    int across = 0, near_seen = 0, far_seen = 0;
     for (int pair = 0; pair < 400; ++pair) {
         glm::dvec3 eye(8 * unit(random) - 3, 8 * unit(random) - 3, 2.5 * unit(random));
         glm::dvec2 far(4 * unit(random), 2 * unit(random)), ground = far - glm::dvec2(eye);
@@ -231,10 +231,14 @@ TEST(Warp, ANearerColumnHidesAFartherOneThatTheSameRayPasses) {
         int near_first = 101, near_last = -1;
         for (int y = 0; y < 101; ++y)
             if ((picture.colours[size_t(y * 101 + 50)] & 0xff) == 2) near_first = std::min(near_first, y), near_last = y;
+        near_seen += std::max(0, near_last - near_first + 1);
+        for (int y = 0; y < 101; ++y) far_seen += (picture.colours[size_t(y * 101 + 50)] & 0xff) == 1;
         for (int y = near_first; y <= near_last; ++y)
             EXPECT_EQ(picture.colours[size_t(y * 101 + 50)] & 0xff, 2u) << "pair " << pair << " at " << y;
     }
     EXPECT_GT(across, 20);
+    EXPECT_GT(near_seen, 2000);  // so that something was asked
+    EXPECT_GT(far_seen, 100);
 }
 
 // Of samples in one column, the nearest to the eye's height is what an eye straight before it sees last drawn: from above the

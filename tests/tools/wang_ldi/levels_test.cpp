@@ -76,16 +76,79 @@ TEST(Levels, OfOneDistanceAreOneAsFineAsElsewhere) {
     EXPECT_NE(none.error().message.find("5 m from the eye at most, 10 m at least"), std::string::npos) << none.error().message;
 }
 
-TEST(Directions, AreTheFewestThatKeepTheBudget) {
-    for (double radius : {10.0, 95.0, 97.0, 250.0, 500.0}) {
-        uint32_t n = directions_for(radius, 96);
-        double turn = n < 3 ? radius : radius * std::sin(M_PI / n), before = n <= 3 ? radius : radius * std::sin(M_PI / (n - 1));
-        EXPECT_LE(turn, 96);
-        EXPECT_TRUE(n == 1 || before > 96) << n;
+TEST(Levels, AreFineEnoughFromWhereTheyFadeIn) {
+    LevelOptions options;
+    options.set = plants::image_set();
+    auto plain = leveled(options);
+    options.set.level_fade = 0.125f;
+    auto faded = leveled(options);
+    ASSERT_TRUE(plain && faded);
+    for (const Level& level : faded->levels)
+        EXPECT_LE(4.0 / level.side_px * 400 / nearest_of_tile_m(*faded, 0.875 * double(level.nearest_m)), 1.0001);
+    EXPECT_GT(faded->levels[0].side_px, plain->levels[0].side_px);
+    options.set.cell.nearest_m = 3.2;  // fades in within the tile
+    auto within = leveled(options);
+    ASSERT_FALSE(within);
+    EXPECT_NE(within.error().message.find("2.8 m from the eye, within a tile of 4 m; --nearest-m 3.25 at least"),
+              std::string::npos)
+        << within.error().message;
+}
+
+// The farthest that any point of a tile's rim moves in the picture of an eye that looks at the tile's middle, when the eye goes
+// round it: tried out.
+double tried_turn_px(double rim_m, double distance_m, double turn_rad, double focal_px) {
+    double most_px = 0;
+    auto place_px = [&](double angle) { return focal_px * rim_m * std::sin(angle) / (distance_m - rim_m * std::cos(angle)); };
+    for (int i = 0; i < 20000; ++i) {
+        double angle = 2 * M_PI * i / 20000;
+        most_px = std::max(most_px, std::abs(place_px(angle + turn_rad) - place_px(angle)));
     }
-    EXPECT_EQ(directions_for(10, 96), 1u);
-    EXPECT_EQ(directions_for(250, 96), 8u);
-    EXPECT_EQ(directions_for(1e9, 96), kMostDirections);
+    return most_px;
+}
+
+TEST(Directions, RimTurnIsNoLessThanThatOfAnyPointOfIt) {
+    for (double distance_m : {2.9, 3.5, 6.0, 10.0, 80.0})
+        for (double turn_rad : {0.05, 0.1, 0.4, 0.9, 1.6, 3.14159}) {
+            double tried_px = tried_turn_px(2.83, distance_m, turn_rad, 400);
+            EXPECT_GE(rim_turn_px(2.83, distance_m, turn_rad, 400), tried_px * (1 - 1e-9)) << distance_m << " " << turn_rad;
+            double reach = 2 * std::acos(2.83 / distance_m);
+            if (turn_rad < reach) {
+                EXPECT_LE(rim_turn_px(2.83, distance_m, turn_rad, 400), tried_px * 1.001);
+            }
+        }
+}
+
+TEST(Directions, AreTheFewestThatKeepTheBudgetAtTheNearRim) {
+    for (float fade : {0.0f, 0.1f})
+        for (double budget_px : {30.0, 60.0, 170.0}) {
+            LevelOptions options;
+            options.set = plants::image_set(), options.set.direction_fade = fade, options.direction_px = budget_px;
+            auto set = leveled(options);
+            ASSERT_TRUE(set) << set.error().message;
+            uint32_t n = set->direction_count;
+            ASSERT_GT(n, 3u);
+            double half_rad = M_PI * (1 + 2 * double(fade));
+            EXPECT_LE(tried_turn_px(4 / std::sqrt(2.0), 6, half_rad / n, 400), budget_px);
+            EXPECT_GT(tried_turn_px(4 / std::sqrt(2.0), 6, half_rad / (n - 1), 400), budget_px * 0.999);
+        }
+    LevelOptions options;
+    options.set = plants::image_set(), options.direction_px = 1e5;
+    EXPECT_EQ(leveled(options)->direction_count, 1u);
+}
+
+TEST(Directions, MoreThanAreDrawnAreRefusedWithAWayOut) {
+    LevelOptions options;
+    options.set = plants::image_set(), options.direction_px = 5;
+    auto set = leveled(options);
+    ASSERT_FALSE(set);
+    EXPECT_EQ(set.error().exit, Exit::bad_command);
+    std::string text = set.error().message;
+    size_t at = text.find("--direction-px ");
+    ASSERT_NE(at, std::string::npos) << text;
+    options.direction_px = std::stod(text.substr(at + 15));
+    auto enough = leveled(options);
+    ASSERT_TRUE(enough) << enough.error().message;
+    EXPECT_EQ(enough->direction_count, kMostDirections);
 }
 
 }  // namespace

@@ -46,6 +46,28 @@ TEST(Samples, LieWithinACubeOfTheSurfaceThatTheyWereMetOn) {
     }
 }
 
+// Eyes fill the distances and the headings that the set states for an image, its fades with them, and none is beyond.
+TEST(Samples, ComeFromAllEyesThatAnImageIsDrawnForInItsFades) {
+    ImageSet set = plants::image_set();
+    set.level_fade = 0.05f, set.direction_fade = 0.1f;
+    for (uint32_t level : {0u, 1u}) {
+        Wedge wedge = wedge_of(set, level, 1);
+        double nearest = INFINITY, farthest = 0, widest_deg = 0;
+        Eye eye;
+        for (uint64_t index = 0; index < 4000; ++index) {
+            set_eye(wedge, 5, index, 16, eye);
+            glm::dvec2 from_middle = glm::dvec2(eye.at_m) - 2.0;
+            ASSERT_TRUE(is_sampled_for(set, level, 1, from_middle, double(eye.at_m.z)));
+            nearest = std::min(nearest, glm::length(from_middle)), farthest = std::max(farthest, glm::length(from_middle));
+            double heading_deg = std::atan2(from_middle.x, from_middle.y) * 180 / M_PI;
+            widest_deg = std::max(widest_deg, std::abs(heading_deg - 90));
+        }
+        EXPECT_NEAR(nearest, 0.95 * (level == 0 ? 6 : 12), 0.01);
+        EXPECT_NEAR(farthest, 1.05 * (level == 0 ? 12 : 60), 0.05);
+        EXPECT_NEAR(widest_deg, 0.6 * 90, 0.05);
+    }
+}
+
 TEST(Samples, AreWhatTheEstimateSaysOfHeldOutRays) {
     Field field;
     for (double goal : {0.2, 0.05, 0.02}) {

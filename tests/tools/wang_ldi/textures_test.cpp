@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/wang_ldi/plants.h"
-#include "tools/bake/wang_ldi/texture_walk.h"
+#include "tools/bake/wang_ldi/texel_error.h"
+#include "tools/bake/wang_ldi/texture_boxes.h"
+#include "tools/bake/wang_ldi/texture_sheet.h"
 #include "tools/bake/wang_ldi/textures_opacity.h"
 
 namespace overlook::wang_ldi {
@@ -135,6 +137,135 @@ TEST(DirectionalTextures, DrawnLookLikeWhatRaysSee) {
         EXPECT_LT(of_right.mean_error, 0.05);
         EXPECT_LT(of_right.mean_error, of_wrong.mean_error);
     }
+}
+
+// Linear luma of a finest texel.
+double luma_of(const DirectionalTexture& texture, size_t texel) {
+    const auto& colour = texture.colours[texel];
+    return 0.2126 * double(linear_from_srgb(colour[0])) + 0.7152 * double(linear_from_srgb(colour[1])) +
+           0.0722 * double(linear_from_srgb(colour[2]));
+}
+
+// How often eyes of the far wedge hit each finest texel.
+std::vector<double> hits_of(const TraceStage& stage, const TextureSet& set, uint32_t direction) {
+    std::vector<double> hits(size_t(set.side_px) * set.side_px, 0);
+    std::vector<rays::Hit> found;
+    Eye eye;
+    for (uint64_t index = 0; index < 300; ++index) {
+        set_eye(far_wedge_of(set, direction), 77, index, 1024, eye);
+        found.resize(eye.rays.size());
+        stage.scene.first_hits(eye.rays, found);
+        for (size_t i = 0; i < found.size(); ++i) {
+            if (found[i].copy == rays::kNone) continue;
+            glm::dvec3 at = glm::dvec3(eye.rays[i].from_m) + double(found[i].distance) * glm::dvec3(eye.rays[i].along);
+            if (at.x < 0 || at.y < 0 || at.x >= set.tile_m || at.y >= set.tile_m) continue;
+            double per_m = set.side_px / set.tile_m;
+            hits[size_t(at.y * per_m) * set.side_px + size_t(at.x * per_m)] += 1;
+        }
+    }
+    return hits;
+}
+
+// Of textures that differ in their seeds alone, finest texels are off their mean by what each states, root mean square over what
+// is seen of them.
+TEST(DirectionalTextures, AreOffByTheStandardErrorThatTheyState) {
+    Models models = plants::models();
+    std::vector<rays::Copy> copies = copies_of(plants::one_tile(), plants::planting(3), {0, 0, 0, 0, 0, 0, 0, 0, 0});
+    std::vector<TraceStage> stages;
+    stages.push_back(staged(models, copies));
+    TextureSet set = texture_set_of(plants::image_set(), 8);
+    std::vector<double> hits = hits_of(stages[0], set, 1);
+    for (double goal : {0.08, 0.03}) {
+        std::vector<DirectionalTexture> made;
+        double stated_squared = 0;
+        TextureOptions options;
+        options.error_goal = goal;
+        for (options.seed = 1; options.seed <= 12; ++options.seed) {
+            made.push_back(texture_of(models, stages, set, 1, {}, options).texture);
+            stated_squared += std::pow(double(made.back().standard_error), 2) / 12;
+        }
+        double off = 0, weights = 0;
+        for (size_t texel = 0; texel < 64; ++texel) {
+            double mean = 0, squares = 0;
+            for (const auto& texture : made) mean += luma_of(texture, texel) / 12;
+            for (const auto& texture : made) squares += std::pow(luma_of(texture, texel) - mean, 2) / 11;
+            off += hits[texel] * squares, weights += hits[texel];
+        }
+        double stated = std::sqrt(stated_squared), found = std::sqrt(off / weights);
+        EXPECT_NEAR(found, stated, 0.3 * stated) << goal;
+    }
+}
+
+// Eyes that each see one of two lumas, again and again: the mean of 8 eyes is as uncertain as that of 8 numbers, however often
+// each has seen it.
+TEST(TexelErrors, AreOfEyesNotOfHits) {
+    for (int hits : {1, 100}) {
+        TexelErrors errors(3);
+        for (uint64_t eye = 0; eye < 8; ++eye)
+            for (int hit = 0; hit < hits; ++hit) errors.add(1, eye, eye % 2 == 0 ? 0.25 : 0.75);
+        EXPECT_NEAR(errors.standard_error(), 0.25 / std::sqrt(7.0), 1e-9);
+        EXPECT_NEAR(errors.luma(), 8 * hits * 0.5, 1e-9);
+        // What one eye alone has seen is no surer than the rest.
+        for (int hit = 0; hit < hits; ++hit) errors.add(2, 9, 0.5);
+        EXPECT_NEAR(errors.standard_error(), 0.25 / std::sqrt(7.0), 1e-9);
+    }
+    TexelErrors once(1);
+    EXPECT_EQ(once.standard_error(), 0);
+    once.add(0, 0, 0.5), once.add(0, 0, 0.7);
+    EXPECT_TRUE(std::isinf(once.standard_error()));
+}
+
+// Where little is seen, boxes are as high as those about them: none is a low opaque speck.
+TEST(DirectionalTextures, HaveNoSpecksWhereLittleIsSeen) {
+    Models models = plants::models();
+    std::vector<TraceStage> stages;
+    stages.push_back(staged(models, copies_of(plants::one_tile(), plants::planting(3), {0, 0, 0, 0, 0, 0, 0, 0, 0})));
+    TextureSet set = unlit(32);
+    TextureOptions options;
+    options.most_rays = 20'000;
+    DirectionalTexture texture = texture_of(models, stages, set, 3, {}, options).texture;
+    int seen = 0, specks = 0;
+    for (size_t t = 0; t < 32 * 32; ++t) {
+        seen += texture.colours[t][3] > 0;
+        specks += texture.colours[t][3] == 255 && texture.heights[t][1] <= 2;
+    }
+    EXPECT_GT(seen, 100);
+    EXPECT_EQ(specks, 0);
+}
+
+// One low red box in the south-west: from above it is in the corner, and from each side on its side, at the foot.
+TEST(TextureSheet, ShowsBoxesWhereTheyStand) {
+    TextureSet set;
+    set.side_px = 2, set.tile_m = 4, set.low_m = 0, set.high_m = 2, set.nearest_m = 100, set.farthest_m = 400;
+    set.eye_low_m = set.eye_high_m = 1, set.tile_count = 1, set.direction_count = 4;
+    DirectionalTexture texture;
+    texture.colours.assign(5, {}), texture.heights.assign(5, {0, 0});
+    texture.colours[0] = {255, 0, 0, 255}, texture.heights[0] = {32, 31};  // up to half a metre
+    set.textures.assign(4, texture);
+    auto sheet = sheet_of(set);
+    ASSERT_EQ(sheet.size(), 2u);
+    auto red_of = [](const ImageRgb8& picture, uint32_t left, uint32_t top, uint32_t width, uint32_t height) {
+        uint32_t red = 0;
+        for (uint32_t y = top; y < top + height; ++y)
+            for (uint32_t x = left; x < left + width; ++x) {
+                const uint8_t* pixel = &picture.pixels[3 * (size_t(y) * picture.width + x)];
+                red += pixel[0] > 200 && pixel[1] < 50;
+            }
+        return double(red) / (width * height);
+    };
+    const ImageRgb8 &above = sheet[0].picture, &aside = sheet[1].picture;
+    EXPECT_EQ(above.width, 6 + 4 * 134u);
+    EXPECT_EQ(red_of(above, 6, 6 + 64, 64, 64), 1);
+    EXPECT_EQ(red_of(above, 6, 6, 128, 128), 0.25);
+    ASSERT_EQ(aside.width, 6 + 4 * 198u);
+    for (uint32_t direction = 0; direction < 4; ++direction) {  // eyes in the north, east, south, west
+        bool is_left = direction == 1 || direction == 2;
+        uint32_t left = 6 + 198 * direction;
+        EXPECT_GT(red_of(aside, left + (is_left ? 30 : 96), 6 + 95, 66, 20), 0.9) << direction;
+        EXPECT_EQ(red_of(aside, left + (is_left ? 100 : 0), 6, 92, 120), 0) << direction;
+        EXPECT_EQ(red_of(aside, left, 6, 192, 80), 0) << direction;
+    }
+    EXPECT_TRUE(sheet_of(TextureSet()).empty());
 }
 
 }  // namespace

@@ -184,5 +184,29 @@ TEST(RobinsonSet, ShowsItsPlaidInTheSameNumber) {
     EXPECT_LE(shape_of(spectrum_of(*twelve, 12, 256)).share_of_top_hundredth, 0.04);
 }
 
+// Ground whose corners all have one density is covered by tiles between corners of that density.
+TEST(CornerSets, OfWhichADensityHasOneCornerColourSaySo) {
+    SetOptions options;
+    options.kind = SetKind::corners;
+    SearchReport report;
+    auto repeated = [&](const std::vector<float>& densities, uint32_t variants) {
+        options.corner_density = densities, options.variants = variants;
+        auto set = make_tile_set(options, report);
+        EXPECT_TRUE(set);
+        return repeated_densities(*set);
+    };
+    EXPECT_EQ(repeated({1, 0.5f, 0}, 1), (std::vector<float>{1, 0.5f}));
+    EXPECT_EQ(repeated({0, 1}, 1), std::vector<float>{1});
+    EXPECT_EQ(repeated({1, 1, 0}, 1), std::vector<float>());
+    EXPECT_EQ(repeated({1, 1, 0.5f}, 1), std::vector<float>{0.5f});
+    EXPECT_EQ(repeated({1, 0.5f, 0}, 3), std::vector<float>());
+    options = {};
+    EXPECT_EQ(repeated_densities(*make_tile_set(options, report)), std::vector<float>());
+    options.has_borders = true;
+    EXPECT_EQ(repeated_densities(*make_tile_set(options, report)), std::vector<float>());
+    options = {}, options.tiles = 1, options.horizontal_colours = options.vertical_colours = 1;  // meant to repeat
+    EXPECT_EQ(repeated_densities(*make_tile_set(options, report)), std::vector<float>());
+}
+
 }  // namespace
 }  // namespace overlook::wang_ldi

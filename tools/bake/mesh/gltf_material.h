@@ -1,6 +1,7 @@
 // Materials of a glTF file's JSON. A template, so that no header names the JSON library.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "formats/srgb.h"
@@ -68,6 +69,10 @@ std::vector<Material> read_materials(const Json& root, size_t image_count, Value
         surface.is_alpha_masked = values.text(o, "alphaMode") == "MASK";
         surface.alpha_cutoff = float(values.number(o, "alphaCutoff", 0.5, at));
         surface.is_two_sided = values.boolean(o, "doubleSided");
+        surface.roughness =
+            std::clamp(float(values.number(shading, "roughnessFactor", 1, at + "/pbrMetallicRoughness")), 0.0f, 1.0f);
+        surface.metallic =
+            std::clamp(float(values.number(shading, "metallicFactor", 0, at + "/pbrMetallicRoughness")), 0.0f, 1.0f);
         read_base_texture(root, values.member(shading, "baseColorTexture"), image_count,
                           at + "/pbrMetallicRoughness/baseColorTexture", values, material);
     }

@@ -45,12 +45,10 @@ Wedge wedge_of(const ImageSet& set, uint32_t level, uint32_t direction) {
     Wedge wedge;
     wedge.tile_m = set.tile_m, wedge.low_m = set.low_m, wedge.high_m = set.high_m;
     wedge.side_px = set.levels[level].side_px;
-    wedge.nearest_m = double(set.levels[level].nearest_m);
-    wedge.farthest_m =
-        level + 1 < set.levels.size() ? double(set.levels[level + 1].nearest_m) : std::max(set.cell.farthest_m, wedge.nearest_m);
+    SampledFor eyes = sampled_for(set, level, direction);
+    wedge.nearest_m = eyes.nearest_m, wedge.farthest_m = eyes.farthest_m;
     wedge.eye_low_m = set.cell.eye_low_m, wedge.eye_high_m = set.cell.eye_high_m;
-    wedge.heading_rad = 2 * M_PI * direction / set.direction_count;
-    wedge.half_width_rad = M_PI / set.direction_count;
+    wedge.heading_rad = eyes.heading_rad, wedge.half_width_rad = eyes.half_width_rad;
     return wedge;
 }
 

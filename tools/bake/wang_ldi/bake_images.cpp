@@ -23,6 +23,11 @@ constexpr uint64_t kPaperRays = 2'500'000;
 constexpr uint32_t kPaperEyes = 64;
 constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44, kTextureStream = 45;
 
+// How many tiles have images made.
+uint32_t tiles_tried(const ImageBake& bake, const ImageSet& set) {
+    return bake.trial_tiles == 0 ? set.tile_count : std::min(bake.trial_tiles, set.tile_count);
+}
+
 // The images of one tile in one context: what is done by several threads.
 class TileBake {
   public:
@@ -32,14 +37,18 @@ class TileBake {
     Shard texture(std::span<const TraceStage> stages, const TextureSet& set, uint64_t index) const;
 
   private:
-    std::vector<glm::vec3> colours_of(std::span<const TraceStage> stages, const Sampled& sampled, uint64_t seed) const;
+    std::vector<glm::vec3> colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
+                                      uint64_t seed) const;
     const Models& models_;
     const ImageBake& bake_;
     const ImageSet& set_;
 };
 
-std::vector<glm::vec3> TileBake::colours_of(std::span<const TraceStage> stages, const Sampled& sampled, uint64_t seed) const {
-    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, bake_.light, seed);
+std::vector<glm::vec3> TileBake::colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
+                                            uint64_t seed) const {
+    Light light = bake_.light;
+    light.has_gloss = bake_.has_gloss;
+    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, middle_eye_m(wedge), light, seed);
     std::vector<glm::vec3> colours;
     for (const Sample& sample : sampled.samples) colours.push_back(sample.albedo);
     return colours;
@@ -49,14 +58,15 @@ Result<Shard> TileBake::image(std::span<const TraceStage> stages, const TraceSta
     auto index = int64_t(index_of(set_, which));
     SampleOptions options = bake_.sampling;
     options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
-    Sampled all = sampled(models_, stages, wedge_of(set_, which.level, which.direction), options);
-    Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, hash_of(bake_.seed, kLightStream, index, 0)));
+    Wedge wedge = wedge_of(set_, which.level, which.direction);
+    Sampled all = sampled(models_, stages, wedge, options);
+    Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, wedge, hash_of(bake_.seed, kLightStream, index, 0)));
     auto bytes = packed(set_, which.level, ldi);
     if (!bytes) return tl::unexpected(bytes.error());
     Shard shard{std::move(*bytes), all.rays, all.hits, all.eyes, {}, {}};
-    if (bake_.judged_views > 0) {
+    if (uint32_t views = views_of(set_, which, bake_.judged_views, tiles_tried(bake_, set_)); views > 0) {
         Judging judging;
-        judging.views = bake_.judged_views, judging.seed = hash_of(bake_.seed, kJudgeStream, index, 0);
+        judging.views = views, judging.seed = hash_of(bake_.seed, kJudgeStream, index, 0);
         shard.judgement = judged(models_, stages[0], set_, which, ldi, bake_.light, judging);
         if (foreign) shard.foreign = judged(models_, *foreign, set_, which, ldi, bake_.light, judging);
     }
@@ -71,7 +81,7 @@ Shard TileBake::texture(std::span<const TraceStage> stages, const TextureSet& se
     TextureJudgement judgement;
     if (bake_.judged_views > 0) {
         Judging judging;
-        judging.views = bake_.judged_views, judging.seed = hash_of(bake_.seed, kJudgeStream, int64_t(index), 1);
+        judging.views = 1, judging.seed = hash_of(bake_.seed, kJudgeStream, int64_t(index), 1);
         judgement = judged_texture(models_, stages[0], set, all.texture, direction, set_.cell.focal_px, bake_.light, judging);
     }
     return shard_of_texture(all, judgement);
@@ -122,10 +132,14 @@ class SetBake {
 Result<std::vector<TraceStage>> SetBake::stages_of(uint32_t context, uint32_t tile) const {
     std::vector<TraceStage> stages;
     size_t count = sampled_stages(context) + (context == 0 && bake_.judged_views > 0 ? 1 : 0);
+    std::vector<std::array<int, 9>> sampled_among;
     for (size_t n = 0; n < count; ++n) {
-        auto around =
-            context == 1 ? alone(tile) : neighbourhood(tiles_, tile, hash_of(bake_.seed, kNeighbourStream, tile, int64_t(n)));
-        auto stage = stage_of(models_, copies_of(tiles_, planting_, around), bake_.memory_bytes / count);
+        uint64_t seed = hash_of(bake_.seed, kNeighbourStream, tile, int64_t(n));
+        std::span<const std::array<int, 9>> unlike(sampled_among);
+        auto around = context == 1 ? alone(tile)
+                                   : neighbourhood(tiles_, tile, seed, n < sampled_stages(context) ? unlike.first(0) : unlike);
+        sampled_among.push_back(around);
+        auto stage = stage_of(models_, copies_of(tiles_, planting_, around), bake_.memory_bytes / count, bake_.instructions);
         if (!stage) return tl::unexpected(stage.error());
         stages.push_back(std::move(*stage));
     }
@@ -197,12 +211,13 @@ void SetBake::add_rows(uint64_t tile, const std::vector<Shard>& shards) {
 Result<void> SetBake::bake_all(ImageWriter* images, const std::function<void(double)>& progress) {
     uint64_t tiles = uint64_t(set_.context_count) * set_.tile_count;
     for (uint64_t t = 0; t < tiles; ++t) {
+        if (t % set_.tile_count >= tiles_tried(bake_, set_)) continue;
         auto done = [&](double share) { progress((double(t) + share) / double(tiles)); };
         std::vector<Shard> shards(images_of_tile() + textures_of_tile());
         if (auto baked = bake_tile(uint32_t(t / set_.tile_count), uint32_t(t % set_.tile_count), shards, done); !baked)
             return baked;
-        if (!images) continue;
-        for (size_t i = 0; i < images_of_tile(); ++i)
+        if (bake_.part_count > 1) continue;
+        for (size_t i = 0; images && i < images_of_tile(); ++i)
             if (auto added = images->add(shards[i].packed); !added) return added;
         add_rows(t, shards);
     }
@@ -224,7 +239,9 @@ Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<
     kept_ = std::move(*kept), report_.set = set_, report_.parts = kept_;
     report_.part_count = set_.ldi_count() + (has_textures() ? textures_.texture_count() : 0);
     report_.texture_side_px = bake_.textures.side_px;
-    auto outcome = bake_.part_count > 1 ? bake_all(nullptr, progress) : write_all(writer, progress);
+    bool is_written = bake_.part_count == 1 && bake_.trial_tiles == 0;
+    report_.trial_tiles = bake_.trial_tiles;
+    auto outcome = !is_written ? bake_all(nullptr, progress) : write_all(writer, progress);
     if (!outcome) return tl::unexpected(outcome.error());
     progress(1);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

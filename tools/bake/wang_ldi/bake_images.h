@@ -22,14 +22,18 @@ struct ImageBake {
     Light light;
     uint32_t neighbourhoods = 1;                // that a tile is sampled among, in turn
     bool has_border_images = false;             // besides, each tile alone
+    bool has_gloss = true;                      // of samples: as seen from the middle of each image's eyes; else left out
     bool is_relit = false;                      // colours unlit, with normals
-    uint32_t judged_views = 0;                  // of each image; 0: none is judged
+    uint32_t judged_views = 0;                  // of the cell, as views_of; of each texture one; 0: none is judged
+    uint32_t trial_tiles = 0;                   // only the first so many tiles, and no sections are written; 0: all
     uint64_t memory_bytes = uint64_t(4) << 30;  // for rays: beyond it, a tile and its neighbours are kept as instances
+    rays::Instructions instructions = rays::Instructions::best;  // other processors' best hit otherwise in the last bits
     uint64_t seed = 1;
+    std::string version;       // of the program: parts of another are not taken
     std::string parts_folder;  // of Shards; empty: nothing is kept
     // Only images and textures, counted one after the other, whose number leaves `part` when divided by part_count; others are
     // not made, and no sections are written. For
-    // several machines, which share the folder or bring its files together.
+    // several machines, which share the folder or bring its files together; their instructions are alike, or `everywhere`.
     uint64_t part = 0, part_count = 1;
 };
 // What the paper's constants change: levels and directions, 2.5 million rays an image, one neighbourhood.
@@ -41,7 +45,7 @@ struct ImageRow {
     uint64_t stored_bytes = 0, rays = 0, hits = 0, eyes = 0;
     double unseen_share = 0;
     Judgement judgement;  // among the neighbours that the tile was sampled among
-    Judgement foreign;    // among others
+    Judgement foreign;    // among others, where others fit
 };
 struct TextureRow {
     uint64_t rays = 0, hits = 0, eyes = 0;
@@ -57,18 +61,19 @@ struct ImageReport {
     uint64_t taken_from_parts = 0;  // those that were there
     uint64_t above_goal = 0;        // of rows: those with more unseen than was asked for, after the most rays that are shot
     double seconds = 0;
-    TrimReport leaves;  // of the models, filled in by whoever read them
-    Shards parts;       // to be removed (remove_all(part_count)) when the file is committed
+    uint32_t trial_tiles = 0;  // as was asked
+    TrimReport leaves;         // of the models, filled in by whoever read them
+    Shards parts;              // to be removed (remove_all(part_count)) when the file is committed
     uint64_t part_count = 0;
 };
 
 // How low and how high anything stands on the tiles, at least 0.1 m apart.
 glm::dvec2 heights_of(const Models& models, const Planting& planting);
 
-// Adds the sections WLDS and WLDI, and WLDT if there are textures (unless it is a part). planting.models are models.meshes, one
-// by one. A pure function of all but parts_folder, whatever the number of threads. `progress` is called with the share done,
-// 0..1, from this thread. Fails as leveled() and stage_of() do, with Exit::impossible if memory does not suffice, and as the
-// writer does.
+// Adds the sections WLDS and WLDI, and WLDT if there are textures (unless it is a part or a trial). planting.models are
+// models.meshes, one by one. A pure function of all but parts_folder, whatever the number of threads (and, of Instructions::best,
+// of the processor's instruction set). `progress` is called with the share done, 0..1, from this thread. Fails as leveled() and
+// stage_of() do, with Exit::impossible if memory does not suffice, and as the writer does.
 Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles, const Planting& planting, const Models& models,
                                 const ImageBake& bake, const std::function<void(double)>& progress);
 

@@ -43,7 +43,8 @@ void add_models(const Models& models, Key& key) {
 }
 
 void add_planting(const TileSet& tiles, const Planting& planting, Key& key) {
-    key.add_row(tiles.tiles), key.add(planting.tile_size_m);
+    key.add_row(tiles.tiles), key.add_row(tiles.horizontal), key.add_row(tiles.vertical), key.add_row(tiles.corner_density);
+    key.add(planting.tile_size_m), key.add(uint64_t(planting.tiles.size()));
     for (const auto& objects : planting.tiles) {
         key.add(uint64_t(objects.size()));
         for (const Planted& object : objects) {
@@ -58,6 +59,9 @@ void add_planting(const TileSet& tiles, const Planting& planting, Key& key) {
 uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& models, const ImageBake& bake,
                 const ImageSet& set) {
     Key key;
+    std::string_view instructions = rays::name_of(bake.instructions);
+    for (std::string_view text : {std::string_view(bake.version), instructions})
+        key.add_row(std::vector<char>(text.begin(), text.end()));
     add_models(models, key), add_planting(tiles, planting, key);
     key.add_row(bytes_of_head(set));
     const SampleOptions& sampling = bake.sampling;
@@ -69,6 +73,7 @@ uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& mo
     const TextureOptions& textures = bake.textures;
     key.add(uint64_t(textures.side_px) << 32 | textures.least_eyes), key.add(textures.unseen_goal), key.add(textures.error_goal);
     key.add(textures.most_rays), key.add(uint64_t(textures.rays_per_eye));
+    key.add(uint64_t(bake.trial_tiles) << 32 | uint32_t(bake.has_gloss));
     key.add(uint64_t(bake.neighbourhoods) << 32 | bake.judged_views), key.add(bake.memory_bytes), key.add(bake.seed);
     return key.value();
 }

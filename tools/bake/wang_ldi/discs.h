@@ -60,9 +60,9 @@ class DiscGrid {
     }
 
   private:
-    int count(double length) const { return std::clamp(int(std::ceil(length / side_)), 1, 4096); }
-    int column(double x) const { return std::clamp(int(std::floor((x - bounds_.low_x) / side_)), 0, columns_ - 1); }
-    int row(double y) const { return std::clamp(int(std::floor((y - bounds_.low_y) / side_)), 0, rows_ - 1); }
+    int count(double length) const { return int(std::clamp(std::ceil(length / side_), 1.0, 4096.0)); }
+    int column(double x) const { return int(std::clamp(std::floor((x - bounds_.low_x) / side_), 0.0, double(columns_ - 1))); }
+    int row(double y) const { return int(std::clamp(std::floor((y - bounds_.low_y) / side_), 0.0, double(rows_ - 1))); }
 
     Bounds bounds_;
     double side_;

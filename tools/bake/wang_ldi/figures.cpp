@@ -21,6 +21,13 @@ void measure_tilings(const TileSet& set, const Recipe& recipe, const UsedTiling&
     figures.no_random_access = random ? "" : random.error().message;
 }
 
+// Fewer where many small objects stand on each, so that what is looked at stays within memory.
+uint32_t planted_side(const Planting& planting, double radius_m) {
+    constexpr double kMostSquares = 1 << 20;
+    double radii = planting.tile_size_m / radius_m;
+    return uint32_t(std::clamp(2 + std::floor(std::sqrt(kMostSquares) / radii), 3.0, double(kPlantedSide)));
+}
+
 double least_radius_of(const Recipe& recipe) {
     double least_m = HUGE_VAL;
     for (const PlantModel& model : recipe.plant.models)
@@ -79,7 +86,8 @@ Result<Figures> measure_ground(const TileSet& set, const Planting& planting, con
     figures.relative_radius = relative_radius(full, figures.overlaps);
     figures.tiles_with_a_place = tiles_with_a_place(set, planting, least_radius_of(recipe));
 
-    auto planted = used_tiling(set, recipe.set, kPlantedSide, recipe.seed);
+    uint32_t side = planted_side(planting, least_radius_of(recipe));
+    auto planted = used_tiling(set, recipe.set, side, recipe.seed);
     if (!planted) return tl::unexpected(planted.error());
     figures.more_per_tile = more_per_tile(planting, planted->tiling, least_radius_of(recipe), recipe.seed);
     if (with_spectra) measure_spectra(planting, planted->tiling, recipe, figures);

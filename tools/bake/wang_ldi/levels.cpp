@@ -25,29 +25,54 @@ void take_paper(const LevelOptions& options, ImageSet& set) {
         set.levels.push_back(level_of(options, kPaperSides_px[k], (double(k) + 0.5) * set.tile_m));
     set.cell.nearest_m = 0.5 * set.tile_m, set.cell.farthest_m = 7.5 * set.tile_m;
     set.direction_count = kPaperDirections;
+    set.level_fade = set.direction_fade = 0;
+}
+
+// Where a level that begins at distance_m begins to be shown.
+double shown_from_m(const ImageSet& set, double distance_m) {
+    return distance_m * (1 - double(set.level_fade));
 }
 
 double side_wanted(const ImageSet& set, double distance_m) {
-    return set.tile_m * set.cell.focal_px / (set.cell.error_px * nearest_of_tile_m(set, distance_m));
+    double nearest_m = nearest_of_tile_m(set, shown_from_m(set, distance_m));
+    return set.tile_m * set.cell.focal_px / (set.cell.error_px * nearest_m);
 }
 
 // Where a level begins whose pixels are `ratio` times as wide as at distance_m.
 double next_distance_m(const ImageSet& set, double distance_m, double ratio) {
-    double wanted = ratio * nearest_of_tile_m(set, distance_m), low = distance_m, high = 2 * ratio * (distance_m + set.tile_m);
-    while (nearest_of_tile_m(set, high) < wanted) high *= 2;
+    auto nearest_m = [&](double distance) { return nearest_of_tile_m(set, shown_from_m(set, distance)); };
+    double wanted = ratio * nearest_m(distance_m), low = distance_m, high = 2 * ratio * (distance_m + set.tile_m);
+    while (nearest_m(high) < wanted) high *= 2;
     for (int round = 0; round < 60; ++round) {
         double middle = (low + high) / 2;
-        (nearest_of_tile_m(set, middle) < wanted ? low : high) = middle;
+        (nearest_m(middle) < wanted ? low : high) = middle;
     }
     return high;
 }
 
+Result<void> choose_directions(const LevelOptions& options, ImageSet& set) {
+    double rim_m = set.tile_m / std::sqrt(2.0), distance_m = shown_from_m(set, set.cell.nearest_m);
+    auto turn_px = [&](uint32_t count) {
+        double turn_rad = std::min(1.0, (1 + 2 * double(set.direction_fade)) / count) * M_PI;
+        return rim_turn_px(rim_m, distance_m, turn_rad, set.cell.focal_px);
+    };
+    set.direction_count = 1;
+    while (set.direction_count < kMostDirections && turn_px(set.direction_count) > options.direction_px) ++set.direction_count;
+    double turned_px = turn_px(set.direction_count);
+    if (turned_px <= options.direction_px) return {};
+    return bad_command(
+        "a tile's rim turns by {:.4g} px within each of {} directions, the most that are possible; --direction-px {:.4g} at "
+        "least, or a greater --nearest-m",
+        turned_px, kMostDirections, std::ceil(turned_px * 10 + 0.1) / 10);
+}
+
 Result<void> choose(const LevelOptions& options, ImageSet& set) {
     double at = set.cell.nearest_m, rim = set.tile_m / std::sqrt(2.0);
-    if (at <= rim)
+    if (shown_from_m(set, at) <= rim)
         return bad_command(
-            "tiles begin at {} m from the eye, within a tile of {} m; --nearest-m {} at least, nearer ones are drawn as geometry",
-            at, set.tile_m, std::ceil(rim * 100 + 1) / 100);
+            "tiles begin at {:g} m from the eye, within a tile of {} m; --nearest-m {} at least, nearer ones are drawn as "
+            "geometry",
+            shown_from_m(set, at), set.tile_m, std::ceil(rim / shown_from_m(set, 1) * 100 + 1) / 100);
     if (double most = side_wanted(set, at); most > kMostSide_px)
         return bad_command(
             "a pixel error of {} px needs {} pixels along a tile, {} are possible; ask for more error or a greater nearest "
@@ -60,9 +85,7 @@ Result<void> choose(const LevelOptions& options, ImageSet& set) {
         if (at >= set.cell.farthest_m || side >= set.levels.back().side_px || side < kLeastSide_px) break;
         set.levels.push_back(level_of(options, side, at));
     }
-    double radius_px = rim * set.cell.focal_px / set.cell.nearest_m;
-    set.direction_count = directions_for(radius_px, options.direction_px);
-    return {};
+    return choose_directions(options, set);
 }
 
 }  // namespace
@@ -73,12 +96,12 @@ double nearest_of_tile_m(const ImageSet& set, double distance_m) {
     return std::max(std::hypot(ground, above), 1e-3);
 }
 
-uint32_t directions_for(double radius_px, double direction_px) {
-    uint32_t n = 1;
-    // A wedge of half the circle or more turns the rim by all of its radius.
-    auto turn_px = [&](uint32_t count) { return count < 3 ? radius_px : radius_px * std::sin(M_PI / count); };
-    while (n < kMostDirections && turn_px(n) > direction_px) ++n;
-    return n;
+// A point at the angle a from the eye's side is seen at a tangent of rim sin a / (distance - rim cos a), whose slope is steepest
+// and even about a = 0 and which is greatest where cos a = rim / distance.
+double rim_turn_px(double rim_m, double distance_m, double turn_rad, double focal_px) {
+    double half_rad = turn_rad / 2;
+    if (std::cos(half_rad) < rim_m / distance_m) return focal_px * 2 * rim_m / std::sqrt(distance_m * distance_m - rim_m * rim_m);
+    return focal_px * 2 * rim_m * std::sin(half_rad) / (distance_m - rim_m * std::cos(half_rad));
 }
 
 Result<ImageSet> leveled(const LevelOptions& options) {

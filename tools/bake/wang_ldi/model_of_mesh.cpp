@@ -86,6 +86,8 @@ void Maker::add_looks() {
         if (auto texture = textures_.find(surface.texture); texture != textures_.end() && !mesh_.uvs.empty())
             look.texture = texture->second;
         look.transmission = surface.is_two_sided ? options_.leaf_transmission : 0;
+        look.roughness = options_.roughness.value_or(surface.roughness);
+        look.metallic = options_.metallic.value_or(surface.metallic);
         skin_.looks.push_back(look);
     }
     skin_.looks_of = mesh_.face_surface;

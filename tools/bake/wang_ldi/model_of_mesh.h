@@ -1,6 +1,8 @@
 // A mesh from a file as a model that images are sampled from.
 #pragma once
 
+#include <optional>
+
 #include "formats/result.h"
 #include "tools/bake/mesh.h"
 #include "tools/bake/wang_ldi/skins.h"
@@ -11,6 +13,8 @@ namespace overlook::wang_ldi {
 struct ModelOptions {
     float leaf_transmission = 0.35f;  // of two-sided surfaces, what they let through; 0..1
     bool trims_leaves = true;         // by trim_to_masks
+    // Of all surfaces, in place of their own.
+    std::optional<float> roughness{}, metallic{};
 };
 
 // Adds a mesh to the models: its triangles, normals (where the file has them), colours and textures; alpha-masked texels are

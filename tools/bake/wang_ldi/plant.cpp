@@ -83,7 +83,7 @@ double share_for(const TileSet& set, const PlantOptions& options, const OwnedObj
 }  // namespace
 
 Result<Planting> plant(const TileSet& set, const PlantOptions& options, PlantReport& report) {
-    if (auto fits = check_tile_size(options); !fits) return tl::unexpected(fits.error());
+    if (auto fits = check_tile_size(set, options); !fits) return tl::unexpected(fits.error());
     Planting best;
     double least = HUGE_VAL;
     report.candidates = options.candidates;

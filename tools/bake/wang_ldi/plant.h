@@ -51,7 +51,8 @@ struct PlantReport {
 
 // Corners, then edges, then interiors, each filled until nothing of the least packing radius has a place, then thinned to the
 // density asked for and to that of each corner's colour. Same options, same planting. O(candidates * objects). Exit::bad_input:
-// "tile_size_m: 1.2 is too small ...", "density_per_m2: 40 a square metre do not fit; 25.3 do ...".
+// "tile_size_m: 1.2 is too small ...", "tile_size_m: 20000 is too large ...", "density_per_m2: 40 a square metre do not fit; 25.3
+// do ...".
 Result<Planting> plant(const TileSet& set, const PlantOptions& options, PlantReport& report);
 
 // As the paper does it, with its voids at corners. It knows neither corners of less density nor what stands per tile.

@@ -117,12 +117,14 @@ class RoundRobin {
 }  // namespace
 
 Result<Planting> plant_as_paper(const TileSet& set, const PlantOptions& options, PlantReport& report) {
-    if (auto fits = check_tile_size(options); !fits) return tl::unexpected(fits.error());
+    if (auto fits = check_tile_size(set, options); !fits) return tl::unexpected(fits.error());
     if (std::any_of(set.corner_density.begin(), set.corner_density.end(), [](float density) { return density < 1; }))
-        return bad_input("planting: \"paper\" plants no borders and no corners of less density; leave these out, or plant \"corners\"");
+        return bad_input(
+            "planting: \"paper\" plants no borders and no corners of less density; leave these out, or plant \"corners\"");
     for (const PlantModel& model : options.models)
         if (model.per_tile > 0)
-            return bad_input("{}: per_tile: planting \"paper\" knows shares alone; give it one, or plant \"corners\"", model.name);
+            return bad_input("{}: per_tile: planting \"paper\" knows shares alone; give it one, or plant \"corners\"",
+                             model.name);
     report = {};
     return RoundRobin(set, options).run(report);
 }

@@ -1,9 +1,14 @@
 #include "tools/bake/wang_ldi/plant_parts.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace overlook::wang_ldi {
 namespace {
+
+// Squares of a packing radius, of which about a sixth hold an object: memory for one tile's, and what a file holds of all tiles'.
+constexpr double kMostSquaresOfATile = 1 << 24, kMostSquares = 1 << 26;
 
 // From the end of one edge's band to the nearest of another's it is sqrt(2) * (arm - reach), which has to be 2 * reach.
 double arm_of(double reach) {
@@ -99,11 +104,23 @@ std::vector<Model> models_of(const PlantOptions& options) {
     return models;
 }
 
-Result<void> check_tile_size(const PlantOptions& options) {
+Result<void> check_tile_size(const TileSet& set, const PlantOptions& options) {
     double least = least_tile_size_m(options);
-    if (options.tile_size_m >= least) return {};
-    return bad_input("tile_size_m: {:g} is too small: corners and edges of tiles with packing radii up to {:g} m take {:.4g} m",
-                     options.tile_size_m, greatest_radius(options), least);
+    if (options.tile_size_m < least)
+        return bad_input(
+            "tile_size_m: {:g} is too small: corners and edges of tiles with packing radii up to {:g} m take {:.4g} m",
+            options.tile_size_m, greatest_radius(options), least);
+    double tiles = double(set.tiles.size()), most_radii = std::sqrt(std::min(kMostSquaresOfATile, kMostSquares / tiles));
+    for (const PlantModel& model : options.models) {
+        double radius_m = double(model.packing_radius_m) * model.least_scale;
+        if (options.tile_size_m > most_radii * radius_m)
+            return bad_input(
+                "tile_size_m: {:g} is too large: {} tiles are planted up to {:.4g} times as wide as a packing radius, that of {} "
+                "is "
+                "{:g} m; ask for tiles of {:.4g} m at most, fewer of them or a greater packing_radius_m",
+                options.tile_size_m, set.tiles.size(), most_radii, model.name, radius_m, most_radii * radius_m);
+    }
+    return {};
 }
 
 }  // namespace overlook::wang_ldi

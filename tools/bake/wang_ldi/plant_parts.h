@@ -61,7 +61,7 @@ double tight_radius(const PlantOptions& options, const Planted& object);
 
 // Planting::models of the options.
 std::vector<Model> models_of(const PlantOptions& options);
-// What both ways ask of a tile's size.
-Result<void> check_tile_size(const PlantOptions& options);
+// What both ways ask of a tile's size: it is no smaller than corners and edges need, and no larger than can be planted and kept.
+Result<void> check_tile_size(const TileSet& set, const PlantOptions& options);
 
 }  // namespace overlook::wang_ldi

@@ -1,10 +1,13 @@
 #include "tools/bake/wang_ldi/planting_check.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "tools/bake/wang_ldi/free_area.h"
+#include "tools/bake/wang_ldi/object_grid.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -18,23 +21,52 @@ double tight_of(const Planting& planting, const Planted& object) {
 
 class Overlaps {
   public:
-    Overlaps(const TileSet& set, const Planting& planting) : set_(set), planting_(planting) {
-        report_.least_tight_gap_m = HUGE_VAL, report_.least_packing_ratio = HUGE_VAL;
+    Overlaps(const TileSet& set, const Planting& planting, uint64_t most_looks)
+        : set_(set), planting_(planting), most_looks_(most_looks) {
+        for (size_t t = 0; t < planting.tiles.size(); ++t) {
+            grids_.emplace_back(planting, t), most_radius_m_ = std::max(most_radius_m_, grids_.back().most_radius_m());
+            for (const Planted& object : planting.tiles[t])
+                least_radius_m_ = std::min(least_radius_m_, packing_of(planting, object));
+        }
     }
+    // Pairs that are near each other, then ever farther ones, until no pair beyond can have the least gap or ratio.
     OverlapReport run() {
-        size_t count = set_.tiles.size();
-        for (size_t a = 0; a < count; ++a)
-            for (size_t b = 0; b < count; ++b) {
-                if (a == b) look(a, b, 0, 0);
-                if (set_.tiles[a].east == set_.tiles[b].west) look(a, b, 1, 0);
-                if (set_.tiles[a].north == set_.tiles[b].south) look(a, b, 0, 1);
-                if (meet_north_east(set_.tiles[a], set_.tiles[b])) look(a, b, 1, 1);
-                if (meet_north_west(set_.tiles[a], set_.tiles[b])) look(a, b, -1, 1);
-            }
-        return report_;
+        OverlapReport last;
+        for (double share = 1.5;; share *= 2) {
+            pass(share);
+            if (report_.is_cut_short && share > 1.5) last.is_cut_short = true, last.looks = report_.looks;
+            if (report_.is_cut_short) return share > 1.5 ? last : report_;
+            bool is_least =
+                report_.least_packing_ratio <= share && report_.least_tight_gap_m <= 2 * least_radius_m_ * (share - 1);
+            if (is_least || 2 * least_radius_m_ * share > 3 * planting_.tile_size_m) return report_;
+            last = report_;
+        }
     }
 
   private:
+    static constexpr std::array<std::array<int, 2>, 4> kSides{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
+
+    // Pairs whose middles are `share` of the sum of their packing radii apart or less.
+    void pass(double share) {
+        report_ = {0, 0, 0, HUGE_VAL, HUGE_VAL, report_.looks, false};
+        size_t count = set_.tiles.size();
+        for (size_t a = 0; a < count; ++a) {
+            std::array<std::vector<uint32_t>, 4> near;
+            for (size_t side = 0; side < 4; ++side) near[side] = near_side(a, kSides[side], share);
+            std::vector<uint32_t> all(planting_.tiles[a].size());
+            std::iota(all.begin(), all.end(), 0);
+            look(a, a, {0, 0}, all, share);
+            for (size_t b = 0; b < count; ++b)
+                for (size_t side = 0; side < 4; ++side)
+                    if (meet(set_.tiles[a], set_.tiles[b], side)) look(a, b, kSides[side], near[side], share);
+        }
+    }
+    // Whether b may stand on that side of a.
+    bool meet(const Tile& a, const Tile& b, size_t side) const {
+        if (side == 0) return a.east == b.west;
+        if (side == 1) return a.north == b.south;
+        return side == 2 ? meet_north_east(a, b) : meet_north_west(a, b);
+    }
     template <typename Fits>
     bool some(Fits fits) const {
         return std::any_of(set_.tiles.begin(), set_.tiles.end(), fits);
@@ -48,32 +80,57 @@ class Overlaps {
         return some([&](const Tile& t) { return t.east == a.west && t.north == b.south; }) &&
                some([&](const Tile& t) { return t.south == a.north && t.west == b.east; });
     }
-    void look(size_t a, size_t b, int x_tiles, int y_tiles) {
+    // Objects of a tile that can be near one of a neighbour's.
+    std::vector<uint32_t> near_side(size_t tile, const std::array<int, 2>& side, double share) const {
+        std::vector<uint32_t> near;
+        const std::vector<Planted>& objects = planting_.tiles[tile];
+        double size = planting_.tile_size_m;
+        auto beyond = [&](double at, int tiles) { return tiles == 0 ? 0 : tiles > 0 ? size - at : at; };
+        for (uint32_t o = 0; o < objects.size(); ++o) {
+            double away = std::hypot(beyond(double(objects[o].x_m), side[0]), beyond(double(objects[o].y_m), side[1]));
+            if (away <= share * (packing_of(planting_, objects[o]) + most_radius_m_)) near.push_back(o);
+        }
+        return near;
+    }
+    void look(size_t a, size_t b, const std::array<int, 2>& side, const std::vector<uint32_t>& of_a, double share) {
+        if (report_.is_cut_short) return;
         ++report_.neighbourhoods;
         double size = planting_.tile_size_m;
-        bool is_same = x_tiles == 0 && y_tiles == 0;
-        for (size_t i = 0; i < planting_.tiles[a].size(); ++i)
-            for (size_t j = is_same ? i + 1 : 0; j < planting_.tiles[b].size(); ++j) {
-                const Planted &p = planting_.tiles[a][i], &q = planting_.tiles[b][j];
-                double apart =
-                    std::hypot(double(q.x_m) + x_tiles * size - double(p.x_m), double(q.y_m) + y_tiles * size - double(p.y_m));
-                double gap = apart - tight_of(planting_, p) - tight_of(planting_, q);
-                double ratio = apart / (packing_of(planting_, p) + packing_of(planting_, q));
-                report_.tight_overlaps += gap < 0, report_.packing_overlaps += ratio < 1;
-                report_.least_tight_gap_m = std::min(report_.least_tight_gap_m, gap);
-                report_.least_packing_ratio = std::min(report_.least_packing_ratio, ratio);
-            }
+        for (uint32_t i : of_a) {
+            const Planted& p = planting_.tiles[a][i];
+            double packing = packing_of(planting_, p);
+            report_.looks += grids_[b].visit_near(double(p.x_m) - side[0] * size, double(p.y_m) - side[1] * size, packing, share,
+                                                  [&](uint32_t j) {
+                                                      if (b != a || side != std::array<int, 2>{0, 0} || j > i)
+                                                          compare(p, planting_.tiles[b][j], side);
+                                                      return ++report_.looks < most_looks_;
+                                                  });
+            if (report_.looks >= most_looks_) report_.is_cut_short = true;
+            if (report_.is_cut_short) return;
+        }
+    }
+    void compare(const Planted& p, const Planted& q, const std::array<int, 2>& side) {
+        double size = planting_.tile_size_m;
+        double apart = std::hypot(double(q.x_m) + side[0] * size - double(p.x_m), double(q.y_m) + side[1] * size - double(p.y_m));
+        double gap = apart - tight_of(planting_, p) - tight_of(planting_, q);
+        double ratio = apart / (packing_of(planting_, p) + packing_of(planting_, q));
+        report_.tight_overlaps += gap < 0, report_.packing_overlaps += ratio < 1;
+        report_.least_tight_gap_m = std::min(report_.least_tight_gap_m, gap);
+        report_.least_packing_ratio = std::min(report_.least_packing_ratio, ratio);
     }
 
     const TileSet& set_;
     const Planting& planting_;
+    uint64_t most_looks_;
+    std::vector<ObjectGrid> grids_;
+    double least_radius_m_ = HUGE_VAL, most_radius_m_ = 0;
     OverlapReport report_;
 };
 
 }  // namespace
 
-OverlapReport check_overlaps(const TileSet& set, const Planting& planting) {
-    return Overlaps(set, planting).run();
+OverlapReport check_overlaps(const TileSet& set, const Planting& planting, uint64_t most_looks) {
+    return Overlaps(set, planting, most_looks).run();
 }
 
 double relative_radius(const Planting& planting, const OverlapReport& overlaps) {

@@ -17,8 +17,12 @@ struct OverlapReport {
     uint64_t tight_overlaps = 0, packing_overlaps = 0;  // pairs of objects
     double least_tight_gap_m = 0;                       // between tight radii; below 0: overlap
     double least_packing_ratio = 0;                     // distance over the sum of packing radii
+    uint64_t looks = 0;                                 // at pairs of objects, and at squares of grids to find them
+    bool is_cut_short = false;  // after most_looks: overlaps are so many at least, the least gap and ratio so small at least
 };
-OverlapReport check_overlaps(const TileSet& set, const Planting& planting);
+// In time that grows with the objects where they are spread as plantings are, with their pairs only where all stand together.
+constexpr uint64_t kMostLooks = uint64_t(1) << 32;
+OverlapReport check_overlaps(const TileSet& set, const Planting& planting, uint64_t most_looks = kMostLooks);
 
 // The least distance that any two keep, as a share of the greatest that so many could keep in the plane (a hexagonal grid): of
 // one packing radius everywhere, Lagae and Dutre's rho = r / sqrt(1 / (2 sqrt(3) n)) for n objects a unit of area, r half the

@@ -66,6 +66,13 @@ void read_file(TomlTable& table, const std::string& recipe, Recipe& into) {
         table.refuse("file", fmt::format("\"{}\" is missing: {} is not there", file, path.string()));
     else if (!std::filesystem::is_regular_file(path, reason))
         table.refuse("file", fmt::format("\"{}\" is no file", file));
+    auto share = [&](const char* key) {
+        std::optional<float> value;
+        if (table.has(key)) value = float(table.number(key, 1, 0, 1));
+        return value;
+    };
+    table.number("roughness", 1, 0, 1), table.number("metallic", 0, 0, 1);
+    into.roughness.push_back(share("roughness")), into.metallic.push_back(share("metallic"));
     into.plant.models.back().name = path.filename().string();
     into.files.push_back(path.string());
 }
@@ -123,7 +130,8 @@ Result<void> choose_tiles(const std::string& text, SetOptions& set) {
     set.kind = SetKind::stochastic, set.tiles = tiles;
     // One tile has one colour; more tiles, in place of one, have more again.
     bool has_one_colour = set.horizontal_colours * set.vertical_colours == 1;
-    if (tiles == 1 || has_one_colour) set.horizontal_colours = set.vertical_colours = tiles == 1 ? 1 : SetOptions().vertical_colours;
+    if (tiles == 1 || has_one_colour)
+        set.horizontal_colours = set.vertical_colours = tiles == 1 ? 1 : SetOptions().vertical_colours;
     return {};
 }
 

@@ -1,6 +1,7 @@
 // What bake-wang-ldi is told: a file of TOML that names models and how they are planted, on which tiles.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Recipe {
     bool is_as_paper = false;        // planting = "paper"
     uint64_t seed = 1;               // of set and planting
     std::vector<std::string> files;  // [models of plant]: paths
+    // [models of plant]: of all their surfaces, in place of the files' own.
+    std::vector<std::optional<float>> roughness, metallic;
 };
 
 // "12", "robinson", "corners": sets tiles and kind. Exit::bad_input: "\"twelve\" is no set of tiles; ...".

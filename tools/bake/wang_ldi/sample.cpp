@@ -30,7 +30,9 @@ struct Cube {
     HeldOut::Met met;
     uint32_t looks = 0;
     uint64_t place = 0;
-    rays::Hit first;
+    // Of what was looked at the place that faces its eye most: the rim of a leaf is little of what is seen.
+    float facing = -1;
+    rays::Hit best;
     uint32_t stage = 0;
     glm::vec3 seen_along{0};
 };
@@ -62,8 +64,7 @@ void Sampler::keep(std::span<const TraceStage> stages, size_t stage, const rays:
     uint32_t number = table_.number_of(place);
     if (number == cubes_.size()) {
         cubes_.emplace_back();
-        cubes_.back().place = place, cubes_.back().first = hit, cubes_.back().seen_along = ray.along;
-        cubes_.back().stage = uint32_t(stage);
+        cubes_.back().place = place;
     }
     Cube& cube = cubes_[number];
     held_out_.meet(cube.met, eyes_);
@@ -71,6 +72,9 @@ void Sampler::keep(std::span<const TraceStage> stages, size_t stage, const rays:
     if (cube.looks == kMostLooks) return;
     Point point = point_of(models_, stages[stage].copies, hit, ray.along);
     ++cube.looks, cube.albedo_sum += point.albedo, cube.normal_sum += point.normal;
+    float facing = -glm::dot(point.face, ray.along);
+    if (facing <= cube.facing) return;
+    cube.facing = facing, cube.best = hit, cube.stage = uint32_t(stage), cube.seen_along = ray.along;
 }
 
 void Sampler::shoot(std::span<const TraceStage> stages, size_t stage, const Eye& eye) {
@@ -93,7 +97,7 @@ Sampled Sampler::take() {
         sample.height_m = float(cube.height_sum_m / cube.met.count), sample.albedo = cube.albedo_sum / float(cube.looks);
         float length = glm::length(cube.normal_sum);
         sample.normal = length > 1e-6f ? cube.normal_sum / length : -glm::normalize(cube.seen_along);
-        sample.hit = cube.first, sample.stage = cube.stage, sample.seen_along = cube.seen_along;
+        sample.hit = cube.best, sample.stage = cube.stage, sample.seen_along = cube.seen_along;
         made.samples.push_back(sample);
     }
     return made;

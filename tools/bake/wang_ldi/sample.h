@@ -25,6 +25,9 @@ struct Wedge {
     double heading_rad = 0, half_width_rad = 0;  // of the eye, seen from the tile's middle, clockwise from north
 };
 
+// In the middle of its eyes.
+glm::vec3 middle_eye_m(const Wedge& wedge);
+
 struct SampleOptions {
     uint64_t seed = 1;
     double unseen_goal = 0.02;         // sampling stops below, after 4 / unseen_goal hits at least
@@ -43,7 +46,7 @@ struct Sample {
     glm::vec3 albedo{0};  // linear, mean over the first of what was met
     glm::vec3 normal{0};  // likewise, of length 1
     uint32_t met = 0;     // how often
-    // Where it was met first, in which stage and whence: what is lit.
+    // Where the first of what was met faces its eye most, in which stage and whence: what is lit.
     uint32_t stage = 0;
     rays::Hit hit;
     glm::vec3 seen_along{0};

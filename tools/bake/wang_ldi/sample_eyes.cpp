@@ -72,6 +72,13 @@ bool clip(const Wedge& wedge, const glm::dvec3& from, const glm::dvec3& along, d
 
 }  // namespace
 
+glm::vec3 middle_eye_m(const Wedge& wedge) {
+    double distance = std::sqrt(wedge.nearest_m * wedge.farthest_m);
+    return glm::vec3(glm::dvec3(wedge.tile_m / 2 + distance * std::sin(wedge.heading_rad),
+                                wedge.tile_m / 2 + distance * std::cos(wedge.heading_rad),
+                                (wedge.eye_low_m + wedge.eye_high_m) / 2));
+}
+
 void set_eye(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye, Eye& eye) {
     std::array<double, 3> at = spread(seed, index);
     double heading = wedge.heading_rad + (2 * at[0] - 1) * wedge.half_width_rad;

@@ -4,24 +4,13 @@
 #include <cmath>
 
 #include "runtime/wang_ldi/random.h"
+#include "tools/bake/wang_ldi/gloss.h"
+#include "tools/bake/wang_ldi/shade_rays.h"
 
 namespace overlook::wang_ldi {
 namespace {
 
 constexpr uint64_t kPatternStream = 21;
-constexpr float kLift = 1e-4f;  // off the surface, in metres: rays of 32 bits do not meet it again
-
-// A frame about a direction of length 1 (T. Duff and others, Building an Orthonormal Basis, Revisited, 2017).
-glm::mat3 frame_of(const glm::vec3& n) {
-    float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    return {glm::vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::vec3(b, sign + n.y * n.y * a, -n.y), n};
-}
-
-// Places i of count on the unit square, evenly spread, moved by a shift: i / count against the golden ratio.
-glm::vec2 place_of(uint32_t i, uint32_t count, const glm::vec2& shift) {
-    float x = (float(i) + 0.5f) / float(count) + shift.x, y = float(i) * 0.618033989f + shift.y;
-    return {x - std::floor(x), y - std::floor(y)};
-}
 
 // As many from each direction as its cosine, about the frame's third axis.
 glm::vec3 cosine_direction(const glm::mat3& frame, const glm::vec2& at) {
@@ -29,21 +18,10 @@ glm::vec3 cosine_direction(const glm::mat3& frame, const glm::vec2& at) {
     return frame * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0f, 1 - at.x)));
 }
 
-struct Rays {
-    std::vector<rays::Ray> rays;
-    std::vector<uint8_t> blocked;
-
-    void add(const glm::vec3& from, const glm::vec3& along) { rays.push_back({from, along}); }
-    void shoot(const rays::Scene& scene) {
-        blocked.resize(rays.size());
-        scene.are_blocked(rays, blocked);
-    }
-};
-
 // What sky and ground send to a side of a surface, over what they would if nothing were in the way.
 glm::vec3 around(const rays::Scene& scene, const glm::vec3& at, const glm::vec3& side, const glm::vec3& face, uint32_t count,
                  const Light& light, const glm::vec2& shift) {
-    Rays rays;
+    ShadowRays rays;
     glm::mat3 frame = frame_of(side);
     std::vector<uint8_t> is_sky;
     glm::vec3 sum(0);
@@ -61,7 +39,7 @@ glm::vec3 around(const rays::Scene& scene, const glm::vec3& at, const glm::vec3&
 // Share of the sun that is seen from one side.
 float sun_share(const rays::Scene& scene, const glm::vec3& at, const glm::vec3& face, const Light& light,
                 const glm::vec2& shift) {
-    Rays rays;
+    ShadowRays rays;
     glm::mat3 frame = frame_of(glm::normalize(light.to_sun));
     auto tangent = float(std::tan(light.sun_radius_deg * 0.017453292519943295));
     for (uint32_t i = 0; i < light.sun_rays; ++i) {
@@ -83,24 +61,27 @@ glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, 
     glm::vec3 to_sun = glm::normalize(light.to_sun), front = point.at_m + kLift * point.face,
               back = point.at_m - kLift * point.face;
     float facing = glm::dot(point.normal, to_sun), share = point.transmission;
+    float sun_seen = facing > 0 ? sun_share(scene, front, point.face, light, shift) : 0;
     glm::vec3 seen = around(scene, front, point.normal, point.face, light.sky_rays, light, shift);
-    if (facing > 0) seen += light.sun * (facing * sun_share(scene, front, point.face, light, shift));
+    if (facing > 0) seen += light.sun * (facing * sun_seen);
     if (share > 0) {
         glm::vec3 behind = around(scene, back, -point.normal, -point.face, light.sky_rays, light, shift);
         if (facing < 0) behind += light.sun * (-facing * sun_share(scene, back, -point.face, light, shift));
         seen += share * behind;
     }
-    return point.albedo * seen;
+    if (!light.has_gloss || !is_glossy(point)) return point.albedo * seen;
+    glm::vec3 even = point.albedo * (1 - point.metallic) * (glm::vec3(1) - mirrored_share(point)) * seen;
+    return even + mirrored(scene, point, light, sun_seen, shift);
 }
 
 std::vector<glm::vec3> lit_samples(const Models& models, std::span<const TraceStage> stages, std::span<const Sample> samples,
-                                   const Light& light, uint64_t seed) {
+                                   const glm::vec3& eye_m, const Light& light, uint64_t seed) {
     std::vector<glm::vec3> colours;
     colours.reserve(samples.size());
     for (const Sample& sample : samples) {
         const TraceStage& stage = stages[sample.stage];
         Point point = point_of(models, stage.copies, sample.hit, sample.seen_along);
-        point.albedo = sample.albedo;
+        point.albedo = sample.albedo, point.to_eye = glm::normalize(eye_m - point.at_m);
         uint64_t own = hash_of(seed, kPatternStream, sample.pixel, sample.layer);
         colours.push_back(lit(stage.scene, point, light, own));
     }

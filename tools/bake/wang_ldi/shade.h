@@ -1,4 +1,5 @@
-// Light on samples, once each: the sun with a soft shadow, the sky as far as it is seen, leaves that let light through.
+// Light on samples, once each: the sun with a soft shadow, the sky as far as it is seen, leaves that let light through, what is
+// glossy as one eye sees it.
 //
 // Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, section 4 (samples are lit offline, so that
 // any light may be simulated); S. Zhukov, A. Iones, G. Kronin, An Ambient Light Illumination Model, 1998 (how much of the sky a
@@ -10,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/wang_ldi/baked_light.h"
 #include "tools/bake/wang_ldi/sample.h"
 
 namespace overlook::wang_ldi {
@@ -17,17 +19,20 @@ namespace overlook::wang_ldi {
 struct Light {
     glm::vec3 to_sun{0.45f, 0.35f, 0.82f};   // any length but 0; z > 0
     double sun_radius_deg = 1.5;             // how far the sun reaches to each side of its middle
-    glm::vec3 sun{0.85f, 0.8f, 0.7f};        // what a white surface that faces it sends back of it, linear
-    glm::vec3 sky{0.3f, 0.36f, 0.45f};       // and of the whole sky
-    glm::vec3 ground{0.03f, 0.035f, 0.02f};  // and of the ground, which lies below the horizon everywhere
+    glm::vec3 sun = BakedLight().sun;        // what a white surface that faces it sends back of it, linear
+    glm::vec3 sky = BakedLight().sky;        // and of the whole sky
+    glm::vec3 ground = BakedLight().ground;  // and of the ground, which lies below the horizon everywhere
     uint32_t sun_rays = 8, sky_rays = 32;    // of each sample: multiples of 1 .. 256
+    bool has_gloss = true;                   // else glossy surfaces send back light evenly, as others do
 };
 
-// What a place sends to the viewer, linear. Rays go from `point` into the stage; `seed` turns the pattern of their directions.
+// What a place sends to the viewer (point.to_eye), linear. Rays go from `point` into the stage; `seed` turns the pattern of their
+// directions.
 glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed);
 
-// [samples] linear colours. seed: of all patterns; each sample's own follows from its pixel and layer.
+// [samples] linear colours, as an eye at eye_m sees them: what is not glossy looks the same from anywhere. seed: of all patterns;
+// each sample's own follows from its pixel and layer.
 std::vector<glm::vec3> lit_samples(const Models& models, std::span<const TraceStage> stages, std::span<const Sample> samples,
-                                   const Light& light, uint64_t seed);
+                                   const glm::vec3& eye_m, const Light& light, uint64_t seed);
 
 }  // namespace overlook::wang_ldi

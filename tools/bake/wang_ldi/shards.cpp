@@ -13,11 +13,14 @@ namespace overlook::wang_ldi {
 namespace {
 
 // checksum of all that follows, then numbers, then the image's frame.
-constexpr size_t kChecksumBytes = 8, kNumbers = 19, kHeadBytes = kChecksumBytes + 8 * kNumbers;
+constexpr size_t kJudgementNumbers = 8 + Shares::kSteps;
+constexpr size_t kChecksumBytes = 8, kNumbers = 7 + 2 * kJudgementNumbers, kHeadBytes = kChecksumBytes + 8 * kNumbers;
 
 void add_numbers(const Judgement& judgement, std::vector<uint64_t>& numbers) {
-    numbers.insert(numbers.end(), {judgement.pixels, judgement.holes, judgement.deeper, judgement.nearer,
-                                   std::bit_cast<uint64_t>(judgement.mean_error), std::bit_cast<uint64_t>(judgement.p99_error)});
+    numbers.insert(numbers.end(), {judgement.pixels, judgement.holes, judgement.holes_left, judgement.deeper, judgement.nearer,
+                                   judgement.error_pixels, std::bit_cast<uint64_t>(judgement.error_sum),
+                                   std::bit_cast<uint64_t>(judgement.unfilled_error_sum)});
+    numbers.insert(numbers.end(), judgement.errors.counts.begin(), judgement.errors.counts.end());
 }
 
 std::vector<std::byte> bytes_of(const Shard& shard) {
@@ -49,14 +52,19 @@ std::optional<Shard> shard_of(std::span<const std::byte> bytes) {
     shard.packed.unseen_share = std::bit_cast<float>(uint32_t(number(2)));
     shard.rays = number(3), shard.hits = number(4), shard.eyes = number(5);
     auto judgement = [&](size_t at) {
-        return Judgement{number(at),
-                         number(at + 1),
-                         number(at + 2),
-                         number(at + 3),
-                         std::bit_cast<double>(number(at + 4)),
-                         std::bit_cast<double>(number(at + 5))};
+        Judgement read{number(at),
+                       number(at + 1),
+                       number(at + 2),
+                       number(at + 3),
+                       number(at + 4),
+                       number(at + 5),
+                       std::bit_cast<double>(number(at + 6)),
+                       std::bit_cast<double>(number(at + 7)),
+                       {}};
+        for (size_t step = 0; step < Shares::kSteps; ++step) read.errors.counts[step] = number(at + 8 + step);
+        return read;
     };
-    shard.judgement = judgement(6), shard.foreign = judgement(12);
+    shard.judgement = judgement(6), shard.foreign = judgement(6 + kJudgementNumbers);
     shard.packed.bytes.assign(bytes.begin() + kHeadBytes, bytes.end());
     return shard;
 }

@@ -74,7 +74,8 @@ Point point_of(const Models& models, std::span<const rays::Copy> copies, const r
     }
     const Look& look = skin.looks[skin.looks_of.empty() ? 0 : skin.looks_of[hit.triangle]];
     point.albedo = albedo_at(mesh, skin, look, hit);
-    point.transmission = look.transmission;
+    point.transmission = look.transmission, point.roughness = look.roughness, point.metallic = look.metallic;
+    point.to_eye = -glm::normalize(seen_along);
     return point;
 }
 

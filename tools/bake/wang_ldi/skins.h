@@ -16,6 +16,8 @@ struct Look {
     glm::vec3 albedo{1};
     uint32_t texture = rays::kNone;  // of Skin::textures, multiplies albedo
     float transmission = 0;          // of what falls on the back, how much is let through, beside albedo: 0..1
+    float roughness = 1;             // 1: sends light back evenly, unless it is metal; 0..1, as glTF has it
+    float metallic = 0;              // mirrors in its own colour and nothing else; 0..1
 };
 
 // 8-bit RGB, sRGB-encoded; repeats, (0, 0) the first texel of the first row.
@@ -44,7 +46,8 @@ struct Point {
     glm::vec3 face{0};    // the triangle's own normal, of length 1, towards the viewer
     glm::vec3 normal{0};  // the smooth one, on the same side
     glm::vec3 albedo{0};  // linear
-    float transmission = 0;
+    float transmission = 0, roughness = 1, metallic = 0;
+    glm::vec3 to_eye{0};  // of length 1
 };
 // seen_along: from the viewer to the hit, any length. hit.copy is of copies.
 Point point_of(const Models& models, std::span<const rays::Copy> copies, const rays::Hit& hit, const glm::vec3& seen_along);

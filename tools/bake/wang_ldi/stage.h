@@ -23,8 +23,9 @@ struct TraceStage {
 };
 
 // The tile and the eight round it, which seed chooses among those that fit edge by edge (a corner may be met by tiles that do not
-// fit there if no other fits); row by row from the south, -1: none, for a tile alone.
-std::array<int, 9> neighbourhood(const TileSet& set, size_t tile, uint64_t seed);
+// fit there if no other fits); row by row from the south, -1: none, for a tile alone. Where another fits than stands there in any
+// of `unlike`, one such is chosen.
+std::array<int, 9> neighbourhood(const TileSet& set, size_t tile, uint64_t seed, std::span<const std::array<int, 9>> unlike = {});
 inline std::array<int, 9> alone(size_t tile) {
     return {-1, -1, -1, -1, int(tile), -1, -1, -1, -1};
 }
@@ -33,6 +34,7 @@ inline std::array<int, 9> alone(size_t tile) {
 std::vector<rays::Copy> copies_of(const TileSet& set, const Planting& planting, const std::array<int, 9>& tiles);
 
 // Flattened where that takes at most memory_bytes, else as instances. Fails as rays::Scene::build. models must outlive it.
-Result<TraceStage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes);
+Result<TraceStage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes,
+                            rays::Instructions instructions = rays::Instructions::best);
 
 }  // namespace overlook::wang_ldi

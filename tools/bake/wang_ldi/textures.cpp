@@ -5,6 +5,7 @@
 
 #include "runtime/wang_ldi/random.h"
 #include "tools/bake/wang_ldi/held_out.h"
+#include "tools/bake/wang_ldi/texel_error.h"
 #include "tools/bake/wang_ldi/texture_walk.h"
 #include "tools/bake/wang_ldi/textures_opacity.h"
 
@@ -14,6 +15,8 @@ namespace {
 constexpr uint64_t kEyeStream = 51, kHitStream = 53;
 constexpr uint32_t kLightRaysShare = 16;
 constexpr size_t kMostLines = 1 << 15;
+constexpr uint32_t kLeastRaysPerEye = 256;
+constexpr double kHitsOfCoarser = 8;
 
 double luma_of(const glm::vec3& colour) {
     return 0.2126 * double(colour.r) + 0.7152 * double(colour.g) + 0.0722 * double(colour.b);
@@ -23,13 +26,12 @@ double luma_of(const glm::vec3& colour) {
 struct Sum {
     uint64_t hits = 0;
     glm::dvec3 colour{0}, normal{0};
-    double luma = 0, luma_squared = 0, height_m = 0, height_squared = 0;
+    double height_m = 0, height_squared = 0;
 
     void add(const Sum& other) {
-        hits += other.hits, colour += other.colour, normal += other.normal, luma += other.luma;
-        luma_squared += other.luma_squared, height_m += other.height_m, height_squared += other.height_squared;
+        hits += other.hits, colour += other.colour, normal += other.normal;
+        height_m += other.height_m, height_squared += other.height_squared;
     }
-    double luma_variance_sum() const { return std::max(0.0, luma_squared - luma * luma / double(hits)); }
 };
 
 class TextureSampler {
@@ -40,10 +42,10 @@ class TextureSampler {
 
   private:
     bool is_enough() const;
-    double standard_error() const;
     void see(const TraceStage& stage);
     void add_hit(const TraceStage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at);
     void sum_up();
+    std::vector<double> height_variances() const;
     void encode(DirectionalTexture& texture) const;
     void fill_unseen(DirectionalTexture& texture) const;
     void add_line(const rays::Ray& ray, const rays::Hit& hit);
@@ -61,6 +63,8 @@ class TextureSampler {
     Eye eye_;
     HeldOut held_out_;
     std::vector<HeldOut::Met> met_;  // of the finest picture's texels
+    TexelErrors errors_;             // likewise
+    uint32_t rays_per_eye_;          // one a texel: more would meet the same leaves
     uint64_t reaching_ = 0, rays_ = 0, eyes_ = 0;
 };
 
@@ -73,7 +77,10 @@ TextureSampler::TextureSampler(const Models& models, std::span<const TraceStage>
       light_(light),
       options_(options),
       sums_(texture_texels(set.side_px)),
-      met_(size_t(set.side_px) * set.side_px) {
+      met_(size_t(set.side_px) * set.side_px),
+      errors_(met_.size()),
+      rays_per_eye_(
+          std::clamp(set.side_px * set.side_px, std::min(kLeastRaysPerEye, options.rays_per_eye), options.rays_per_eye)) {
     light_.sun_rays = std::max(1u, light.sun_rays / kLightRaysShare);
     light_.sky_rays = std::max(1u, light.sky_rays / kLightRaysShare);
 }
@@ -87,14 +94,14 @@ void TextureSampler::add_hit(const TraceStage& stage, const rays::Ray& ray, cons
                            ? point.albedo
                            : lit(stage.scene, point, light_, hash_of(options_.seed, kHitStream, int64_t(held_out_.hits()), 0));
     Sum& sum = sums_[texel];
-    double luma = luma_of(colour), height_m = at.z - set_.low_m;
-    held_out_.meet(met_[texel], eyes_), ++sum.hits;
-    sum.colour += glm::dvec3(colour), sum.normal += glm::dvec3(point.normal), sum.luma += luma, sum.luma_squared += luma * luma;
+    double height_m = at.z - set_.low_m;
+    held_out_.meet(met_[texel], eyes_), errors_.add(texel, eyes_, luma_of(colour)), ++sum.hits;
+    sum.colour += glm::dvec3(colour), sum.normal += glm::dvec3(point.normal);
     sum.height_m += height_m, sum.height_squared += height_m * height_m;
 }
 
 void TextureSampler::see(const TraceStage& stage) {
-    set_eye(wedge_, hash_of(options_.seed, kEyeStream, 0, 0), eyes_, options_.rays_per_eye, eye_);
+    set_eye(wedge_, hash_of(options_.seed, kEyeStream, 0, 0), eyes_, rays_per_eye_, eye_);
     found_.resize(eye_.rays.size());
     stage.scene.first_hits(eye_.rays, found_);
     for (size_t i = 0; i < found_.size(); ++i) {
@@ -116,29 +123,11 @@ void TextureSampler::add_line(const rays::Ray& ray, const rays::Hit& hit) {
     if (lines_.size() < kMostLines) lines_.push_back({ray.from_m, ray.along});
 }
 
-// Of the finest texels' colours, root mean square over hits; a texel hit once is taken to vary as the others do together.
-double TextureSampler::standard_error() const {
-    double within = 0, of_means = 0;
-    uint64_t freedom = 0, single = 0;
-    for (size_t t = 0; t < size_t(set_.side_px) * set_.side_px; ++t) {
-        uint64_t hits = sums_[t].hits;
-        if (hits == 0) continue;
-        single += hits == 1, freedom += hits - 1;
-        double variance_sum = sums_[t].luma_variance_sum();
-        within += variance_sum;
-        if (hits > 1) of_means += variance_sum / double(hits - 1);
-    }
-    if (freedom == 0) return 1;
-    return std::sqrt((of_means + double(single) * within / double(freedom)) / double(held_out_.hits()));
-}
-
 bool TextureSampler::is_enough() const {
     if (rays_ >= options_.most_rays) return true;
     if (held_out_.hits() == 0) return held_out_.is_of_nothing(eyes_, options_.least_eyes);
     if (eyes_ < options_.least_eyes || !held_out_.is_within(options_.unseen_goal)) return false;
-    double luma = 0;
-    for (size_t t = 0; t < size_t(set_.side_px) * set_.side_px; ++t) luma += sums_[t].luma;
-    return standard_error() * double(held_out_.hits()) <= options_.error_goal * luma;
+    return errors_.standard_error() * double(held_out_.hits()) <= options_.error_goal * errors_.luma();
 }
 
 // Coarser pictures from finer ones: sums, so nothing is rounded between.
@@ -152,17 +141,37 @@ void TextureSampler::sum_up() {
     }
 }
 
+// Of heights about each texel's mean. A few hits do not tell how far a texel's reach up and down, and a box too low would be
+// opaque: the coarser texel's variance counts as kHitsOfCoarser of them.
+std::vector<double> TextureSampler::height_variances() const {
+    std::vector<double> variances(sums_.size(), 0);
+    for (uint32_t level = texture_levels(set_.side_px); level-- > 0;) {
+        size_t at = texture_level_at(set_.side_px, level), coarse = texture_level_at(set_.side_px, level + 1);
+        uint32_t side = set_.side_px >> level;
+        for (uint32_t t = 0; t < side * side; ++t) {
+            const Sum& sum = sums_[at + t];
+            if (sum.hits == 0) continue;
+            double hits = double(sum.hits), mean_m = sum.height_m / hits;
+            double squares = std::max(0.0, sum.height_squared - hits * mean_m * mean_m);
+            double known = side == 1 ? squares / hits : variances[coarse + size_t(t / side / 2) * (side / 2) + t % side / 2];
+            variances[at + t] = (squares + kHitsOfCoarser * known) / (hits + kHitsOfCoarser);
+        }
+    }
+    return variances;
+}
+
 void TextureSampler::encode(DirectionalTexture& texture) const {
     double step_m = (set_.high_m - set_.low_m) / 255;
+    std::vector<double> variances = height_variances();
     auto code = [](double value, double least) { return uint8_t(std::clamp(std::round(value), least, 255.0)); };
-    for (const Sum& sum : sums_) {
+    for (size_t t = 0; t < sums_.size(); ++t) {
+        const Sum& sum = sums_[t];
         texture.colours.push_back({}), texture.heights.push_back({});
         if (set_.has_normals) texture.normals.push_back({});
         if (sum.hits == 0) continue;
         auto hits = double(sum.hits);
         for (int c = 0; c < 3; ++c) texture.colours.back()[size_t(c)] = srgb_from_linear(float(sum.colour[c] / hits));
-        double mean_m = sum.height_m / hits, variance = std::max(0.0, sum.height_squared / hits - mean_m * mean_m);
-        texture.heights.back() = {code(mean_m / step_m, 0), code(std::sqrt(3 * variance) / step_m, 1)};
+        texture.heights.back() = {code(sum.height_m / hits / step_m, 0), code(std::sqrt(3 * variances[t]) / step_m, 1)};
         for (int axis = 0; axis < 3 && set_.has_normals; ++axis)
             texture.normals.back()[size_t(axis)] = int8_t(std::lround(127 * std::clamp(sum.normal[axis] / hits, -1.0, 1.0)));
     }
@@ -194,7 +203,7 @@ TextureSampled TextureSampler::run() {
     TextureSampled made;
     uint64_t hits = held_out_.hits();
     made.texture.unseen_share = float(held_out_.unseen_share());
-    made.texture.standard_error = hits == 0 ? 0 : float(standard_error());
+    made.texture.standard_error = float(std::min(errors_.standard_error(), 1.0));
     sum_up(), encode(made.texture);
     if (hits > 0) set_opacity(made.texture);
     fill_unseen(made.texture);
@@ -207,7 +216,8 @@ TextureSampled TextureSampler::run() {
 TextureSet texture_set_of(const ImageSet& images, uint32_t side_px) {
     TextureSet set;
     set.side_px = side_px, set.tile_m = images.tile_m, set.low_m = images.low_m, set.high_m = images.high_m;
-    set.nearest_m = images.cell.farthest_m, set.farthest_m = kFarTimes * images.cell.farthest_m;
+    set.nearest_m = images.cell.farthest_m * (1 - double(images.level_fade)), set.farthest_m = kFarTimes * images.cell.farthest_m;
+    set.direction_fade = images.direction_fade;
     set.eye_low_m = images.cell.eye_low_m, set.eye_high_m = images.cell.eye_high_m;
     set.tile_count = images.tile_count, set.direction_count = images.direction_count;
     set.context_count = images.context_count, set.has_normals = images.has_normals;
@@ -219,13 +229,9 @@ Wedge far_wedge_of(const TextureSet& set, uint32_t direction) {
     wedge.tile_m = set.tile_m, wedge.low_m = set.low_m, wedge.high_m = set.high_m, wedge.side_px = set.side_px;
     wedge.nearest_m = set.nearest_m, wedge.farthest_m = set.farthest_m;
     wedge.eye_low_m = set.eye_low_m, wedge.eye_high_m = set.eye_high_m;
-    wedge.heading_rad = 2 * M_PI * direction / set.direction_count, wedge.half_width_rad = M_PI / set.direction_count;
+    double step_rad = 2 * M_PI / set.direction_count;
+    wedge.heading_rad = direction * step_rad, wedge.half_width_rad = (0.5 + double(set.direction_fade)) * step_rad;
     return wedge;
-}
-
-Box box_of(const TextureSet& set, const DirectionalTexture& texture, size_t texel) {
-    double middle_m = set.height_m(texture.heights[texel][0]), half_m = set.half_height_m(texture.heights[texel][1]);
-    return {middle_m - half_m, middle_m + half_m};
 }
 
 TextureSampled texture_of(const Models& models, std::span<const TraceStage> stages, const TextureSet& set, uint32_t direction,

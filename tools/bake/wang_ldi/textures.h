@@ -15,15 +15,15 @@
 namespace overlook::wang_ldi {
 
 struct TextureOptions {
-    uint32_t side_px = 32;            // of the finest picture, a power of two; 0: there are none
-    double unseen_goal = 0.02;        // rays stop when so few hits are in texels that one eye alone hits,
-    double error_goal = 0.08;         // and a texel's colour is so certain: standard error over the mean luma
-    uint64_t most_rays = 20'000'000;  // or after so many
-    uint32_t least_eyes = 16, rays_per_eye = 4096;
+    uint32_t side_px = 32;                          // of the finest picture, a power of two; 0: there are none
+    double unseen_goal = 0.02;                      // rays stop when so few hits are in texels that one eye alone hits,
+    double error_goal = 0.04;                       // and a texel's colour is so certain: standard error over the mean luma
+    uint64_t most_rays = 20'000'000;                // or after so many
+    uint32_t least_eyes = 16, rays_per_eye = 4096;  // rays: one for each finest texel, so many at most
     uint64_t seed = 1;
 };
 
-// A set of textures without any, for these images: eyes from where images end to kFarTimes as far.
+// A set of textures without any, for these images: eyes from where images begin to give way to kFarTimes as far as they reach.
 constexpr double kFarTimes = 4;
 TextureSet texture_set_of(const ImageSet& images, uint32_t side_px);
 
@@ -40,7 +40,7 @@ TextureSampled texture_of(const Models& models, std::span<const TraceStage> stag
 // Of sight lines that reach the tile, 4 x 4 a pixel.
 struct TextureJudgement {
     uint64_t pixels = 0;        // that see something of the tile
-    double coverage = 0;        // of those pixels' sight lines, how many end in the tile
+    double coverage = 0;        // of a view's sight lines that reach the tile, how many end in it: mean over the views
     double drawn_coverage = 0;  // likewise, by opacity
     double mean_error = 0;      // of |luma - luma|, sRGB-encoded, before a middle grey
 };
@@ -50,11 +50,5 @@ TextureJudgement judged_texture(const Models& models, const TraceStage& stage, c
 
 // The eyes of a direction. side_px is the texture's.
 Wedge far_wedge_of(const TextureSet& set, uint32_t direction);
-
-// A box of a texel: from low to high above the tile's ground.
-struct Box {
-    double low_m = 0, high_m = 0;
-};
-Box box_of(const TextureSet& set, const DirectionalTexture& texture, size_t texel);
 
 }  // namespace overlook::wang_ldi

@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/srgb.h"
 #include "runtime/wang_ldi/random.h"
-#include "tools/bake/wang_ldi/texture_walk.h"
+#include "tools/bake/wang_ldi/texture_boxes.h"
 #include "tools/bake/wang_ldi/textures.h"
 
 namespace overlook::wang_ldi {
@@ -14,34 +13,12 @@ constexpr uint64_t kViewStream = 61, kTruthStream = 62;
 constexpr double kGrey = 0.2;  // linear, behind the tile
 constexpr uint32_t kSide = 4;  // sight lines along a pixel's side
 
-// Of sight lines, linear.
-struct Light3 {
-    glm::dvec3 colour{0};
-    double coverage = 0;
-};
-
-// Front to back along a sight line, until it is covered.
-Light3 drawn_along(const TextureSet& set, const DirectionalTexture& texture, const rays::Ray& ray, const glm::dvec2& over) {
-    Light3 seen;
-    glm::dvec3 from(ray.from_m), along(ray.along);
-    walk_texels(from, along, set.tile_m, set.side_px, over.x, over.y, [&](uint32_t t, double begin, double end) {
-        Box box = box_of(set, texture, t);
-        double a = from.z + begin * along.z, b = from.z + end * along.z;
-        if (texture.colours[t][3] == 0 || std::max(a, b) < box.low_m || std::min(a, b) > box.high_m) return true;
-        double share = (1 - seen.coverage) * texture.colours[t][3] / 255;
-        for (int c = 0; c < 3; ++c) seen.colour[c] += share * double(linear_from_srgb(texture.colours[t][size_t(c)]));
-        seen.coverage += share;
-        return seen.coverage < 0.999;
-    });
-    return seen;
-}
-
 struct Pixel {
-    Light3 truth, drawn;
+    Seen truth, drawn;
     uint32_t lines = 0;
 
     double error() const {
-        auto luma = [&](const Light3& sum) {
+        auto luma = [&](const Seen& sum) {
             glm::dvec3 colour = (sum.colour + (lines - sum.coverage) * glm::dvec3(kGrey)) / double(lines);
             return overlook::srgb_from_linear(std::clamp(0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b, 0.0, 1.0));
         };
@@ -66,6 +43,7 @@ class TextureJudge {
     const DirectionalTexture& texture_;
     const Light& light_;
     TextureJudgement sum_;
+    uint64_t views_ = 0;  // that some sight line reaches the tile in
 };
 
 void TextureJudge::add_line(const rays::Ray& ray, const rays::Hit& hit, uint64_t seed, Pixel& pixel) {
@@ -79,7 +57,7 @@ void TextureJudge::add_line(const rays::Ray& ray, const rays::Hit& hit, uint64_t
         pixel.truth.colour += glm::dvec3(set_.has_normals ? point.albedo : lit(stage_.scene, point, light_, seed));
         pixel.truth.coverage += 1;
     }
-    Light3 drawn = drawn_along(set_, texture_, ray, over);
+    Seen drawn = seen_along(set_, texture_, glm::dvec3(ray.from_m), glm::dvec3(ray.along), over);
     pixel.drawn.colour += drawn.colour, pixel.drawn.coverage += drawn.coverage;
 }
 
@@ -107,17 +85,19 @@ void TextureJudge::add_view(const Wedge& wedge, double focal_px, const Judging& 
         uint32_t column = i % (side * kSide) / kSide, row = i / (side * kSide) / kSide;
         add_line(lines[i], hits[i], hash_of(judging.seed, kTruthStream, view, i), pixels[size_t(row) * side + column]);
     }
+    double truth = 0, drawn = 0, reaching = 0;
     for (const Pixel& pixel : pixels) {
+        truth += pixel.truth.coverage, drawn += pixel.drawn.coverage, reaching += pixel.lines;
         if (pixel.truth.coverage == 0 && pixel.drawn.coverage == 0) continue;
-        ++sum_.pixels, sum_.coverage += pixel.truth.coverage / pixel.lines;
-        sum_.drawn_coverage += pixel.drawn.coverage / pixel.lines, sum_.mean_error += pixel.error();
+        ++sum_.pixels, sum_.mean_error += pixel.error();
     }
+    if (reaching > 0) ++views_, sum_.coverage += truth / reaching, sum_.drawn_coverage += drawn / reaching;
 }
 
 TextureJudgement TextureJudge::result() const {
     TextureJudgement mean = sum_;
-    double pixels = std::max(1.0, double(mean.pixels));
-    mean.coverage /= pixels, mean.drawn_coverage /= pixels, mean.mean_error /= pixels;
+    double views = std::max(1.0, double(views_));
+    mean.coverage /= views, mean.drawn_coverage /= views, mean.mean_error /= std::max(1.0, double(mean.pixels));
     return mean;
 }
 

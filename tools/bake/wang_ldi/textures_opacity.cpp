@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/bake/wang_ldi/texture_walk.h"
-#include "tools/bake/wang_ldi/textures.h"
+#include "tools/bake/wang_ldi/texture_boxes.h"
 
 namespace overlook::wang_ldi {
 namespace {

@@ -155,6 +155,20 @@ Result<TileSet> make_tile_set(const SetOptions& options, SearchReport& report) {
     return set;
 }
 
+std::vector<float> repeated_densities(const TileSet& set) {
+    std::map<float, size_t, std::greater<>> tiles_of;  // all of whose corners have the density
+    for (float density : set.corner_density) tiles_of[density] = 0;
+    for (const Tile& tile : set.tiles) {
+        std::array<uint8_t, 4> corners = corners_of(set, tile);
+        float first = set.corner_density[corners[0]];
+        tiles_of[first] += std::all_of(corners.begin(), corners.end(), [&](uint8_t c) { return set.corner_density[c] == first; });
+    }
+    std::vector<float> repeated;
+    for (const auto& [density, tiles] : tiles_of)
+        if (density > 0 && tiles == 1 && set.tiles.size() > 1) repeated.push_back(density);
+    return repeated;
+}
+
 std::string text_of(const TileSet& set) {
     std::string text;
     for (const Tile& tile : set.tiles)

@@ -52,6 +52,9 @@ std::vector<TileSet> balanced_sets(uint32_t per_pair);
 // greatest_correlation of the set's row-by-row tiling of side x side, equal neighbours allowed, as the paper does it.
 double score_of(const TileSet& set, uint32_t side, uint64_t seed);
 
+// Densities of corners, above 0, at which ground is one tile over and over, though the set has others: descending.
+std::vector<float> repeated_densities(const TileSet& set);
+
 // Robinson's sixteen, six colours each way.
 TileSet robinson_set();
 // A tiling with them: of theorem C, at (x0, y0) = (seeds). Row by row they dead-end at once.

@@ -5,16 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "runtime/view/flip.h"
 #include "tools/measure/frame.h"
 
 namespace overlook::measure {
 
-// rgb: [height, width, 3] row-major, top row first, sRGB-encoded; width and height at least 1. Wherever two pictures are
-// compared they have the same size: that is the caller's duty (asserted).
-struct RgbView {
-    uint32_t width = 0, height = 0;
-    std::span<const uint8_t> rgb;
-};
+// Wherever two pictures are compared they have the same size: that is the caller's duty (asserted).
+using RgbView = view::Rgb8View;
 inline RgbView rgb_of(const Frame& frame) {
     return {frame.width, frame.height, frame.rgb};
 }

@@ -53,7 +53,9 @@ void add_half(const wang_ldi::Placement& placement, const wang_ldi::Item& item, 
 
 Result<void> add_frame(const wang_ldi::PlantedField& planted, const MethodSpec& spec, const view::Camera& camera, uint32_t frame,
                        Shear& all) {
-    wang_ldi::FieldOptions options = field_options_of(planted.images().set(), planting_options(spec), view::focal_px(camera));
+    uint32_t texture_side_px = planted.textures() ? planted.textures()->side_px : 1;  // only beyond the images, which are judged
+    wang_ldi::FieldOptions options =
+        field_options_of(planted.images().set(), planting_options(spec), view::focal_px(camera), texture_side_px);
     Result<wang_ldi::Field> field = wang_ldi::Field::of(planted.parts(), options);
     if (!field) return tl::unexpected(field.error());
     wang_ldi::FieldList list;

@@ -21,8 +21,8 @@ vec3 shaded(vec3 own) {
     return own * (0.4 + 0.6 * abs(dot(normal, normalize(vec3(-0.5, -0.7, 0.6)))));
 }
 void main() {
-    Item item = items[item_of];
-    vec3 own = own_colour(item.is_plain != 0u);
+    Item item = own_item();
+    vec3 own = own_colour(item.is_plain);
     vec3 at_m = PAINT == 2 ? as_animated(item) : surface.rest_m;
     if (item.show == 1u && visibility_of(item, at_m) > item.share) discard;
     if (PAINT == 1) own = shaded(item.show == 0u ? vec3(0.6) : item.level == item.change ? vec3(0.8, 0.05, 0.04) : vec3(0.05, 0.1, 0.8));

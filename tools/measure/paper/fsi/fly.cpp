@@ -8,6 +8,8 @@
 namespace overlook::measure::paper::fsi {
 namespace {
 
+constexpr size_t kLeastForMany = 1000;
+
 // How far off the coarser level of a film is, in its pixels: SIMPLE's levels differ by their whole size.
 double film_error_px(const std::string& name) {
     return name == "simple" ? 8 : 2;
@@ -83,7 +85,7 @@ Result<void> time_all(const std::vector<Subject>& subjects, Flown& flown) {
 
 }  // namespace
 
-Result<Flown> fly_all(std::vector<Subject>& subjects, uint32_t frames, const gl::Renderer& renderer,
+Result<Flown> fly_all(std::vector<Subject>& subjects, uint32_t frames, bool flies_many, const gl::Renderer& renderer,
                       const command::Common& common) {
     Flown flown;
     flown.frames = frames;
@@ -100,6 +102,14 @@ Result<Flown> fly_all(std::vector<Subject>& subjects, uint32_t frames, const gl:
             if (!points) return tl::unexpected(points.error());
             flown.points.insert(flown.points.end(), points->begin(), points->end());
         }
+    }
+    for (const Subject& subject : subjects) {
+        // SIMPLE's few stand where the paper has them.
+        if ((renderer.is_software && !flies_many) || things_of(subject.world).placements.size() < kLeastForMany) continue;
+        Part part(progress, common, "100,000 of " + subject.name, 0.5, 0.5);
+        Result<std::vector<Point>> points = fly_many(subject, renderer, frames);
+        if (!points) return tl::unexpected(points.error());
+        flown.points.insert(flown.points.end(), points->begin(), points->end());
     }
     if (Result<void> timed = time_all(subjects, flown); !timed) return tl::unexpected(timed.error());
     std::vector<Job> jobs = jobs_of(subjects);

@@ -1,6 +1,7 @@
 #include "tools/measure/paper/fsi/sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -54,6 +55,54 @@ Result<World> heavy_world(const World& scene) {
     return world;
 }
 
+// What the scene holds, again and again: field beside field, to both sides of the first and beyond it, kMany things and no more.
+Result<World> many_world(const World& scene) {
+    const ChainWorld& things = things_of(scene);
+    glm::dvec3 low_m = things.placements.front().translation_m, high_m = low_m;
+    for (const discrete::Placement& one : things.placements)
+        low_m = glm::min(low_m, one.translation_m), high_m = glm::max(high_m, one.translation_m);
+    auto count = uint32_t(things.placements.size());
+    uint32_t fields = (kMany + count - 1) / count, columns = uint32_t(std::ceil(std::sqrt(double(fields))));
+    // As far from field to field as from one thing to the next.
+    glm::dvec3 step_m = (high_m - low_m) * (1 + 1 / std::sqrt(double(count)));
+    World world;
+    world.name = scene.name, world.base = scene.base, world.step_s = scene.step_s;
+    for (const ChainWorld& one : scene.chains) {
+        ChainWorld& copy = world.chains.emplace_back(chain_world(*one.chain, {}));
+        copy.placements.clear();
+        for (uint32_t field = 0; field < fields; ++field)
+            for (discrete::Placement placement : one.placements) {
+                if (&one == &things && copy.placements.size() == kMany) break;
+                placement.translation_m.x += (double(field % columns) - columns / 2) * step_m.x;
+                placement.translation_m.y += double(field / columns) * step_m.y;
+                copy.placements.push_back(placement);
+            }
+    }
+    if (Result<void> uploaded = upload(world); !uploaded) return tl::unexpected(uploaded.error());
+    return world;
+}
+
+// Frames of the flight's middle at one size, by some ways in turns.
+Course course_of(const Subject& subject, std::span<const Way> ways, uint32_t frames, uint32_t side_px) {
+    Course course;
+    for (const Way& way : ways) course.specs.push_back(spec_of(way, settings_at(asked_of(subject.name), side_px, way)));
+    course.cameras = cameras_of(subject, frames + 1, side_px, side_px);
+    course.lead = {course.cameras.front()};  // changes begin after it
+    course.cameras.erase(course.cameras.begin());
+    course.step_s = subject.flight.step_s;
+    course.compared = Compared::none;
+    return course;
+}
+
+void add_points(const CourseResult& result, const Subject& subject, const std::string& chain, std::span<const Way> ways,
+                uint32_t side_px, std::vector<Point>& points) {
+    for (size_t i = 0; i < ways.size(); ++i) {
+        Point point = point_of(result.runs[i]);
+        point.scene = subject.name, point.chain = chain, point.method = ways[i].name, point.side_px = side_px;
+        points.push_back(std::move(point));
+    }
+}
+
 }  // namespace
 
 Asked asked_of(const std::string& name) {
@@ -79,29 +128,29 @@ Result<std::vector<Point>> fly_sizes(Subject& subject, const gl::Renderer& rende
     std::vector<Part> parts = {{"", &subject.world, {kWays.begin(), kWays.end()}},
                                {kHeavy, &*heavy, {kWays[kSwitch], kWays[kBlend], kWays[kPaper], kWays[kOwn]}}};
     if (subject.by_hand) parts.push_back({"by hand", &*subject.by_hand, {kWays[kSwitch], kWays[kPaper]}});
-    Asked asked = asked_of(subject.name);
-    uint32_t count = std::max(2u, frames / asked.frames_share);
+    uint32_t count = std::max(2u, frames / asked_of(subject.name).frames_share);
     std::vector<Point> points;
     double runs = double(parts.size() * std::size(kSides_px)), flown = 0;
     for (const Part& part : parts)
         for (uint32_t side_px : kSides_px) {
-            Course course;
-            for (const Way& way : part.ways) course.specs.push_back(spec_of(way, settings_at(asked, side_px, way)));
-            course.cameras = cameras_of(subject, count + 1, side_px, side_px);
-            course.lead = {course.cameras.front()};  // changes begin after it
-            course.cameras.erase(course.cameras.begin());
-            course.step_s = subject.flight.step_s;
-            course.compared = Compared::none;
+            Course course = course_of(subject, part.ways, count, side_px);
             Result<CourseResult> result =
                 run_course(*part.world, course, renderer, "", [&](double share) { done((flown + share) / runs); });
             if (!result) return tl::unexpected(result.error());
             flown += 1;
-            for (size_t i = 0; i < part.ways.size(); ++i) {
-                Point point = point_of(result->runs[i]);
-                point.scene = subject.name, point.chain = part.chain, point.method = part.ways[i].name, point.side_px = side_px;
-                points.push_back(std::move(point));
-            }
+            add_points(*result, subject, part.chain, part.ways, side_px, points);
         }
+    return points;
+}
+
+Result<std::vector<Point>> fly_many(const Subject& subject, const gl::Renderer& renderer, uint32_t frames) {
+    Result<World> many = many_world(subject.world);
+    if (!many) return tl::unexpected(many.error());
+    const std::array<Way, 2> ways = {kWays[kSwitch], kWays[kOwn]};
+    Result<CourseResult> result = run_course(*many, course_of(subject, ways, frames, kAsked_px), renderer, "", [](double) {});
+    if (!result) return tl::unexpected(result.error());
+    std::vector<Point> points;
+    add_points(*result, subject, kManyChain, ways, kAsked_px, points);
     return points;
 }
 

@@ -45,6 +45,13 @@ constexpr uint32_t kHeavyRounds = 48;
 Result<std::vector<Point>> fly_sizes(Subject& subject, const gl::Renderer& renderer, uint32_t frames,
                                      const std::function<void(double)>& done);
 
+// How points are named of so many things that the scene's field stands again and again beside itself, until there are kMany.
+constexpr const char* kManyChain = "100,000 things";
+constexpr uint32_t kMany = 100'000;
+
+// `switch` and `fsi` over kMany of the scene's things at kAsked_px; frames: at least 2. Fails as run_course.
+Result<std::vector<Point>> fly_many(const Subject& subject, const gl::Renderer& renderer, uint32_t frames);
+
 // "error-px": 4 where asked 2 at kAsked_px and the viewport has twice as many pixels a side.
 std::string settings_at(const Asked& asked, uint32_t side_px, const Way& way);
 

@@ -41,6 +41,8 @@ CLI::App* add_verb(CLI::App& app, PaperOptions& options) {
         ->type_name("N")
         ->check(command::number_in(2, 10000))
         ->capture_default_str();
+    verb.add_flag("--many", options.flies_many,
+                  "Fly 100,000 trees and windmills too where OpenGL is software (a graphics card always does)");
     verb.add_option("--out", options.out, "Folder for the page, tables and pictures; made if it is not there")
         ->type_name("DIR")
         ->required();
@@ -59,7 +61,7 @@ Result<void> run_paper(const PaperOptions& options, const std::vector<std::strin
     for (Subject& subject : subjects) {
         if (Result<void> uploaded = upload(subject); !uploaded) return uploaded;
     }
-    Result<Flown> flown = fly_all(subjects, options.frames, context->renderer(), common);
+    Result<Flown> flown = fly_all(subjects, options.frames, options.flies_many, context->renderer(), common);
     if (!flown) return tl::unexpected(flown.error());
     if (errors.count() > 0) return tl::unexpected(Error{Exit::our_bug, "OpenGL reports: " + errors.first()});
     RunSetup setup = setup_here(context->renderer(), kAsked_px, kAsked_px, words);

@@ -14,6 +14,7 @@ struct PaperOptions {
     std::vector<std::string> folders;
     std::string out;
     uint32_t frames = 8;
+    bool flies_many = false;
 };
 
 // Adds "fsi" to `app`.

@@ -28,6 +28,7 @@ struct Moved {
 struct Plants {
     std::string name;
     BakeReport paper, own, single, robinson;
+    std::optional<BakeReport> gloss, gloss_none;
     Size paper_size, own_size;
     WoodCounts by_paper, by_own, by_single;  // figure 2's view
     uint64_t one_samples = 0;                // of the one LDI

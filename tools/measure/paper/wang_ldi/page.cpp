@@ -95,12 +95,17 @@ std::string share(const std::optional<Judged>& judged, double Judged::*of) {
     return judged ? short_number(100 * (*judged).*of) : "";
 }
 
+std::string number(const std::optional<Judged>& judged, double Judged::*of) {
+    return judged ? short_number((*judged).*of) : "";
+}
+
 std::string levels_html(const Plants& plants) {
-    std::string html = kTable +
-                       table_row({"", "pixels a side", "from, m", "samples", "bytes", "bytes a sample", "rays", "unseen, %",
-                                  "holes, %", "among others, %", "too deep, %", "luma off, %"},
-                                 "th") +
-                       "</thead>\n<tbody>\n";
+    std::string html =
+        kTable +
+        table_row({"", "pixels a side", "from, m", "samples", "bytes", "bytes a sample", "rays", "unseen, %", "holes, %",
+                   "filled, %", "among others, %", "filled, %", "too deep, %", "E", "E p99", "E among others"},
+                  "th") +
+        "</thead>\n<tbody>\n";
     for (const auto& [title, report] : {rows_of(plants)[0], rows_of(plants)[1]}) {
         if (!report.images) continue;
         auto row = [&](const std::string& name, const LevelReport& level, const char* attributes) {
@@ -108,18 +113,40 @@ std::string levels_html(const Plants& plants) {
                                short_count(double(level.samples)), short_bytes(double(level.bytes)),
                                short_number(double(level.bytes) / double(std::max<uint64_t>(1, level.samples))),
                                short_count(double(level.rays)), short_number(100 * level.unseen_share_mean),
-                               share(level.own, &Judged::hole_share), share(level.foreign, &Judged::hole_share),
-                               share(level.own, &Judged::deeper_share), share(level.own, &Judged::mean_luma_error)},
+                               share(level.own, &Judged::hole_share), share(level.own, &Judged::filled_hole_share),
+                               share(level.foreign, &Judged::hole_share), share(level.foreign, &Judged::filled_hole_share),
+                               share(level.own, &Judged::deeper_share), number(level.own, &Judged::e_mean),
+                               number(level.own, &Judged::e_p99), number(level.foreign, &Judged::e_mean)},
                               "td", attributes);
         };
         row(fmt::format("{}, all", title), report.images->all, " class=\"floor\"");
         for (const LevelReport& level : report.images->levels) row(title, level, "");
     }
     return html + kTableEnd +
-           "<p class=\"note\">Unseen: estimated when sampling stopped. Holes, too deep, luma: pictures of each image by the "
-           "warper "
-           "beside what rays see from there, over views of its cell, among the neighbours it was sampled among and among others; "
-           "nothing is filled; empty where the bake was not judged. <a href=\"levels.csv\">levels.csv</a></p>\n";
+           "<p class=\"note\">Unseen: estimated when sampling stopped. Holes, too deep, E (LDR-FLIP): pictures of images by "
+           "the warper beside what rays see from there, over random views of the cell, among the neighbours they were sampled "
+           "among "
+           "and among others, before and after small holes are filled (E: after); empty where the bake was not judged. <a "
+           "href=\"levels.csv\">levels.csv</a></p>\n";
+}
+
+// Glossy plants beside rays that see the gloss from each eye.
+std::string gloss_html(const Plants& plants) {
+    if (!plants.gloss || !plants.gloss_none) return "";
+    std::string html = "<h3>Glossy plants</h3>\n" + std::string(kTable) +
+                       table_row({"", "E", "E p99", "E, nearest level", "E p99, nearest level"}, "th") + "</thead>\n<tbody>\n";
+    for (const auto& [title, report] :
+         {Row{"gloss as the middle of each direction's eyes sees it", *plants.gloss}, Row{"without gloss", *plants.gloss_none}}) {
+        if (!report.images || report.images->levels.empty()) continue;
+        const std::optional<Judged>&all = report.images->all.own, &nearest = report.images->levels[0].own;
+        html += table_row({title, number(all, &Judged::e_mean), number(all, &Judged::e_p99), number(nearest, &Judged::e_mean),
+                           number(nearest, &Judged::e_p99)},
+                          "td");
+    }
+    return html + kTableEnd +
+           "<p class=\"note\">All surfaces of roughness 0.3, one tile; beside rays that see every pixel's gloss from the eye "
+           "itself, "
+           "over the same views.</p>\n";
 }
 
 std::string plants_html(const WangPage& page, const Plants& plants) {
@@ -134,7 +161,7 @@ std::string plants_html(const WangPage& page, const Plants& plants) {
            "</h2>\n" + planting_html(plants) +
            charts_html(page, "density-" + plants.name, "1: as densely as anywhere. Steps are few objects wide.") +
            figures_html(plants, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" + levels_html(plants) +
-           directions_html(plants) + figures_html(plants, 7, 12);
+           directions_html(plants) + gloss_html(plants) + figures_html(plants, 7, 12);
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ Result<Plants> plants_of(const Subject& subject, const std::function<void(double
     Plants plants;
     plants.name = subject.name;
     plants.paper = subject.of_paper, plants.own = subject.of_own, plants.single = subject.of_single;
-    plants.robinson = subject.of_robinson;
+    plants.robinson = subject.of_robinson, plants.gloss = subject.gloss, plants.gloss_none = subject.gloss_none;
     plants.paper_size = size_of(subject.paper), plants.own_size = size_of(subject.own);
     if (auto added = add_figure_2(subject, plants); !added) return tl::unexpected(added.error());
     done(0.6);

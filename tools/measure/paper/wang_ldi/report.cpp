@@ -12,7 +12,8 @@ using nlohmann::json;
 std::optional<Judged> judged_of(const json& level, const char* among) {
     if (!level.contains(among)) return std::nullopt;
     const json& of = level.at(among);
-    return Judged{of.at("hole_share"), of.at("deeper_share"), of.at("mean_luma_error"), of.at("p99_luma_error")};
+    return Judged{of.at("hole_share"), of.at("filled_hole_share"), of.at("deeper_share"), of.at("e_mean"),
+                  of.at("e_p99"),      of.at("unfilled_e_mean")};
 }
 
 LevelReport level_of(const json& of) {

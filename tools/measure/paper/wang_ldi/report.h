@@ -12,9 +12,11 @@ namespace overlook::measure::paper::wang {
 
 // What --judge said: pictures of images, warped, beside what rays see.
 struct Judged {
-    double hole_share = 0;    // nothing is drawn
-    double deeper_share = 0;  // something too deep is
-    double mean_luma_error = 0, p99_luma_error = 0;
+    double hole_share = 0;         // nothing is drawn
+    double filled_hole_share = 0;  // nor after small holes were filled
+    double deeper_share = 0;       // something too deep is
+    double e_mean = 0, e_p99 = 0;  // LDR-FLIP, filled
+    double unfilled_e_mean = 0;
 };
 
 struct LevelReport {

@@ -72,6 +72,8 @@ Result<Subject> read_subject(const std::string& folder) {
     if (done) done = read_report_of(at("own.json"), &subject.own, subject.of_own);
     if (done) done = read_report_of(at("single.json"), &subject.single, subject.of_single);
     if (done) done = read_report_of(at("robinson.json"), nullptr, subject.of_robinson);
+    for (auto [name, report] : {std::pair("gloss.json", &subject.gloss), std::pair("gloss-none.json", &subject.gloss_none)})
+        if (done && std::filesystem::exists(at(name))) done = read_report_of(at(name), nullptr, report->emplace());
     if (done) done = read_sheet(at("sheet"), subject.sheet);
     if (done) done = read_sheet(at("sheet-own"), subject.own_sheet);
     bool has_directions = std::filesystem::exists(at("one.ovl")) && std::filesystem::exists(at("eight.ovl"));

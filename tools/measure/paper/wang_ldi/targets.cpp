@@ -41,14 +41,25 @@ Value finest_unseen(const BakeReport& report) {
     return 100 * report.images->levels[0].unseen_share_mean;
 }
 
-Value finest_holes(const BakeReport& report) {
-    if (!report.images || report.images->levels.empty() || !report.images->levels[0].own) return std::nullopt;
-    return 100 * report.images->levels[0].own->hole_share;
+// Of the finest level's pictures, among the tiles' own or among foreign neighbours.
+Value finest_judged(const BakeReport& report, std::optional<Judged> LevelReport::*among, double Judged::*of) {
+    if (!report.images || report.images->levels.empty() || !(report.images->levels[0].*among)) return std::nullopt;
+    return 100 * (*(report.images->levels[0].*among)).*of;
 }
 
-Value finest_foreign_holes(const BakeReport& report) {
-    if (!report.images || report.images->levels.empty() || !report.images->levels[0].foreign) return std::nullopt;
-    return 100 * report.images->levels[0].foreign->hole_share;
+std::string both_numbers(Value paper, Value own) {
+    return (paper ? short_number(*paper) : "-") + " and " + (own ? short_number(*own) : "-");
+}
+
+// Holes after small ones were filled, and in the note before.
+void add_holes(const Plants& plants, const char* name, const char* printed, double goal,
+               std::optional<Judged> LevelReport::*among, std::vector<Target>& targets) {
+    auto holes = [&](const BakeReport& report, double Judged::*of) { return finest_judged(report, among, of); };
+    Target one = target(plants, name, printed, goal, false);
+    one.measured = {holes(plants.paper, &Judged::filled_hole_share), holes(plants.own, &Judged::filled_hole_share)};
+    Value paper = holes(plants.paper, &Judged::hole_share), own = holes(plants.own, &Judged::hole_share);
+    if (paper || own) one.note = "Before any are filled " + both_numbers(paper, own);
+    targets.push_back(one);
 }
 
 void add_of_planting(const Plants& plants, std::vector<Target>& targets) {
@@ -95,14 +106,9 @@ void add_of_images(const Plants& plants, std::vector<Target>& targets) {
     targets.push_back(
         of_both(plants, target(plants, "unseen of what eyes of the cell see, nearest level, %", "14.7 (a prototype)", 2, false),
                 finest_unseen));
-    targets.push_back(of_both(
-        plants,
-        target(plants, "pixels that show nothing, nearest level, before any are filled, %", "8.4 (a prototype)", 0.1, false),
-        finest_holes));
-    Value paper = finest_foreign_holes(plants.paper), own = finest_foreign_holes(plants.own);
-    if (paper || own)
-        targets.back().note = fmt::format("Among other neighbours than they were sampled among {} and {}",
-                                          paper ? short_number(*paper) : "-", own ? short_number(*own) : "-");
+    add_holes(plants, "pixels that show nothing, nearest level, %", "8.4 (a prototype, unfilled)", 0.1, &LevelReport::own,
+              targets);
+    add_holes(plants, "the same among foreign neighbours, %", "-", 1, &LevelReport::foreign, targets);
 }
 
 const FieldRow* row_of(const FlownLand& land, const char* set, const char* family, const char* what, double x) {
@@ -148,10 +154,8 @@ void add_of_fields(const Plants& plants, std::vector<Target>& targets) {
 void say_why(const Plants& plants, Target& target) {
     if (target.measured.back().value_or(target.goal) <= target.goal || target.is_at_least) return;
     if (target.name.find("show nothing") != std::string::npos)
-        target.why = fmt::format(
-            "a sample is drawn as wide as its pixel and no wider; {} % of what is seen was never sampled, and "
-            "holes are filled when a picture is drawn, not when images are baked",
-            short_number(finest_unseen(plants.own).value_or(0)));
+        target.why = fmt::format("{} % of what is seen was never sampled, and only gaps of two pixels are filled",
+                                 short_number(finest_unseen(plants.own).value_or(0)));
     if (target.name.find("megabytes") != std::string::npos)
         target.why = fmt::format("{} samples of {} tiles", short_count(double(plants.own_size.samples)), plants.own.tiles);
 }

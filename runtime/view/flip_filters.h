@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace overlook::measure {
+namespace overlook::view {
 
 // Weights of the offsets 0, 1, .. radius; those of negative offsets are the same, or the opposite of an odd kernel's.
 struct Kernel {
@@ -33,4 +33,4 @@ FeatureKernels feature_kernels(double pixels_per_degree);
 // them.
 void weighted_sum(const Kernel& kernel, const float* const* taps, size_t count, float* out);
 
-}  // namespace overlook::measure
+}  // namespace overlook::view

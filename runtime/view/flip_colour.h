@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace overlook::measure {
+namespace overlook::view {
 
 // YCxCz without its offset and factors, which a linear filter does not see: Y, X - Y and Y - Z, each relative to the white D65.
 struct OpponentRow {
@@ -22,4 +22,4 @@ void hunt_from_opponent(const OpponentRow& in, size_t width, const HuntRow& out)
 // HyAB distance ^ 0.7, mapped so that 0..0.4 of the greatest (green to blue) take 0..0.95: 0..1.
 void colour_difference(const HuntRow& a, const HuntRow& b, size_t width, float* out);
 
-}  // namespace overlook::measure
+}  // namespace overlook::view

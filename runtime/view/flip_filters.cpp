@@ -1,11 +1,11 @@
-#include "tools/measure/numbers/flip_filters.h"
+#include "runtime/view/flip_filters.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
-namespace overlook::measure {
+namespace overlook::view {
 namespace {
 
 constexpr double kSquarePi = std::numbers::pi * std::numbers::pi;
@@ -115,4 +115,4 @@ void weighted_sum(const Kernel& kernel, const float* const* taps, size_t count, 
     }
 }
 
-}  // namespace overlook::measure
+}  // namespace overlook::view

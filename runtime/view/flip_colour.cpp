@@ -1,4 +1,4 @@
-#include "tools/measure/numbers/flip_colour.h"
+#include "runtime/view/flip_colour.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "formats/srgb.h"
 
-namespace overlook::measure {
+namespace overlook::view {
 namespace {
 
 // IEC 61966-2-1 linear RGB to CIE XYZ; the white is its image of (1, 1, 1).
@@ -119,4 +119,4 @@ void colour_difference(const HuntRow& a, const HuntRow& b, size_t width, float* 
     }
 }
 
-}  // namespace overlook::measure
+}  // namespace overlook::view
