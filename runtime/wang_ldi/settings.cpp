@@ -92,7 +92,7 @@ FieldOptions field_options_of(const ImageSet& images, const FrameOptions& option
     if (!is_paper) {
         made.ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
         made.displacement_px = options.error_px, made.ladder.coarser = options.error_px;
-        if (options.error_px > 1) made.ladder.texture_from_m /= options.error_px, made.ladder.colour_from_m /= options.error_px;
+        if (options.error_px > 1) made.ladder.texture_from_m /= options.error_px, made.ladder.texel_from_m /= options.error_px;
         made.widens_splats = options.widens_splats;
         if (!options.has_far) made.ladder.radius_m = made.ladder.texture_from_m;
         if (!options.cuts_tiles) made.displacement_px = INFINITY, made.most_pieces_log2 = 0, made.chooses_diagonals = false;

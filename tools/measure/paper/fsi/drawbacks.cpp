@@ -46,8 +46,8 @@ Result<Quarter> quarter(Easel& easel, Variant variant, const view::Camera& camer
     discrete::FrameOptions options = discrete::defaults_of(variant);
     options.select.criterion = discrete::Criterion::distance;
     Placement one;
-    double away_m = glm::length(one.at(easel.chain().middle_m) - camera.position_m);
-    options.select.distance_m = 0.5 * away_m, options.select.refine_share = 1;
+    double thing_m = away_m(easel, camera, one);
+    options.select.distance_m = 0.5 * thing_m, options.select.refine_share = 1;
     auto frames = discrete::FrameDrawer::make(easel.drawing(), {&one, 1}, options);
     if (!frames) return tl::unexpected(frames.error());
     Quarter made;
@@ -57,7 +57,7 @@ Result<Quarter> quarter(Easel& easel, Variant variant, const view::Camera& camer
     draw();
     if (!counts) return tl::unexpected(counts.error());
     double calls_at_rest = double(counts->draw_call_count);
-    options.select.distance_m = 1.5 * away_m;
+    options.select.distance_m = 1.5 * thing_m;
     if (Result<void> changed = (*frames)->change(options); !changed) return tl::unexpected(changed.error());
     constexpr int kSteps = 4;
     for (int i = 0; i < kSteps; ++i) {

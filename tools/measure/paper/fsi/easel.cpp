@@ -77,6 +77,10 @@ view::Camera Easel::camera_at(const discrete::Placement& placement, double share
     return camera;
 }
 
+double away_m(const Easel& easel, const view::Camera& camera, const discrete::Placement& placement) {
+    return glm::length(placement.at(easel.chain().middle_m) - camera.position_m);
+}
+
 Result<Midway> midway(Easel& easel, discrete::Variant variant, uint32_t change, double distance_m,
                       std::span<const discrete::Placement> placements, const view::Camera& camera, double phase) {
     discrete::FrameOptions options = discrete::defaults_of(variant);
@@ -85,8 +89,10 @@ Result<Midway> midway(Easel& easel, discrete::Variant variant, uint32_t change, 
     options.select.refine_share = 1;
     auto frames = discrete::FrameDrawer::make(easel.drawing(), placements, options);
     if (!frames) return tl::unexpected(frames.error());
+    double nearest_m = distance_m;
+    for (const discrete::Placement& one : placements) nearest_m = std::min(nearest_m, away_m(easel, camera, one));
     view::Camera behind = camera;
-    behind.position_m -= 0.01 * distance_m * view::axes_of(camera).forward;
+    behind.position_m -= (0.01 * distance_m + 2 * (distance_m - nearest_m)) * view::axes_of(camera).forward;
     (*frames)->decide(behind, 0, 0);
     Midway found{{}, {}, {placements.begin(), placements.end()}, camera, {}};
     for (double reached = 0; reached < phase;) {

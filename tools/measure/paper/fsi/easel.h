@@ -44,6 +44,9 @@ class Easel {
     discrete::ListBuffers buffers_;
 };
 
+// How far a thing's middle is from a camera, in metres.
+double away_m(const Easel& easel, const view::Camera& camera, const discrete::Placement& placement);
+
 // A change of level half-way, by the method itself: the lists of the last two frames, and the picture that it made of them.
 struct Midway {
     discrete::FrameList older, newer;
@@ -51,8 +54,8 @@ struct Midway {
     view::Camera camera;
     ImageRgb8 picture;
 };
-// Everything nearer than distance_m at the camera and farther from a place a hundredth of that behind it changes from level
-// change + 1 to level change; stops at the first frame whose phase is at least `phase`, 0..1, the camera at rest.
+// Everything nearer than distance_m at the camera changes from level change + 1 to level change, as if the camera had come from so
+// far behind that all were farther; stops at the first frame whose phase is at least `phase`, 0..1, the camera at rest.
 Result<Midway> midway(Easel& easel, discrete::Variant variant, uint32_t change, double distance_m,
                       std::span<const discrete::Placement> placements, const view::Camera& camera, double phase);
 

@@ -22,10 +22,6 @@ std::string levels_of(const Subject& subject) {
     return title_of(subject.name) + (subject.by_hand ? ", levels by hand" : "");
 }
 
-double away_m(const Easel& easel, const view::Camera& camera, const Placement& placement) {
-    return glm::length(placement.at(easel.chain().middle_m) - camera.position_m);
-}
-
 // One thing half-way by the paper's form: its two buffers and what it makes of them, below in true colours, above in false ones.
 Result<std::vector<std::vector<ImageRgb8>>> buffers_of(Easel& easel, const Midway& at) {
     std::vector<std::vector<ImageRgb8>> rows(2);
