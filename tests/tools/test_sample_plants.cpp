@@ -7,12 +7,14 @@
 #include <glm/glm.hpp>
 #include <regex>
 
+#include "runtime/view/flight.h"
 #include "tests/formats/scratch_folder.h"
 #include "tools/bake/mesh_input.h"
 #include "tools/make_sample/plant_field.h"
 #include "tools/make_sample/plant_land.h"
 #include "tools/make_sample/plant_textures.h"
 #include "tools/make_sample/sample_plants.h"
+#include "tools/make_sample/sample_slopes.h"
 #include "tools/make_sample/sunflower.h"
 
 namespace overlook::sample {
@@ -227,6 +229,27 @@ TEST(SamplePlants, WriteHillsToPlantThatAreGentle) {
     for (const scene::Key& key : walk->keys)
         EXPECT_NEAR(key.position_m[2] - land_height_m(3, key.position_m[0], -key.position_m[1]), 1.75, 1e-6);
 }
+// Those of the stability suite, over the land of sunflowers (seed 1) or over the slopes: an eye's height, but for where they skim.
+TEST(SamplePlants, AreFlownOverByTheSuiteAboveTheGround) {
+    int flown = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(OVERLOOK_SOURCE_DIR "/samples/flights")) {
+        std::string name = entry.path().stem().string();
+        if (!name.starts_with("planting-")) continue;
+        Result<scene::Flight> flight = scene::read_flight(entry.path().string());
+        ASSERT_TRUE(flight) << flight.error().message;
+        bool is_slopes = name == "planting-slopes";
+        double least_m = INFINITY;
+        for (uint32_t frame = 0; frame < scene::frame_count(*flight); ++frame) {
+            glm::dvec3 at_m = view::camera_at(*flight, scene::frame_time_s(*flight, frame), {}).position_m;
+            double ground_m = is_slopes ? slope_height_m(at_m.x, -at_m.y) : land_height_m(1, at_m.x, -at_m.y);
+            least_m = std::min(least_m, at_m.z - ground_m);
+        }
+        EXPECT_GE(least_m, name == "planting-skimming" ? 1.2 * 0.05 - 1e-4 : 1.5) << name;  // 1.2 near planes
+        ++flown;
+    }
+    EXPECT_EQ(flown, 10);
+}
+
 TEST(SamplePlants, NameEveryModelAndItsRadiiInTheRecipe) {
     for (const char* name : {"sunflowers", "grass"}) {
         const PlantSet& set = set_of(name);
