@@ -192,8 +192,9 @@ const gl::Program& Combiner::use_program(bool is_one, bool moves, const gl::Targ
     glUniformMatrix4fv(program.at("camera_old_from_new"), 1, GL_FALSE, glm::value_ptr(combination.camera.old_from_new));
     glUniformMatrix4fv(program.at("camera_new_from_old"), 1, GL_FALSE, glm::value_ptr(combination.camera.new_from_old));
     glUniform1f(program.at("softness"), float(options_.remedies.softness));
-    std::vector<glm::vec2> places(samples_, glm::vec2(0.5f));
-    for (uint32_t i = 0; samples_ > 1 && i < samples_; ++i) glGetMultisamplefv(GL_SAMPLE_POSITION, i, &places[i].x);
+    if (samples_ == 1) return program;
+    std::vector<glm::vec2> places(samples_);
+    for (uint32_t i = 0; i < samples_; ++i) glGetMultisamplefv(GL_SAMPLE_POSITION, i, &places[i].x);
     glUniform2fv(program.at("sample_px"), GLsizei(samples_), &places[0].x);
     return program;
 }

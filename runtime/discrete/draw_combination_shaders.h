@@ -133,7 +133,7 @@ inline constexpr char kCombinationMain[] = R"(
 #if SEARCHES
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec2 at_px = vec2(at) + sample_px[gl_SampleID];
+    vec2 at_px = vec2(at) + sample_at(gl_SampleID);
     Seen newer = newer_at(at);
     // Of the older buffer: the same instance's other level, and the nearest of other instances under way.
     Hit same, other, hit;

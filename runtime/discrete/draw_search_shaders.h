@@ -42,9 +42,16 @@ vec3 both(Way one, Seen newer, vec4 older, uint older_level) {
 #endif
 }
 
-// Where in its pixel each sample lies.
+// Where in its pixel each sample lies, and the sample of a picture that is nearest to a place.
+#if SAMPLES == 1
+#define sample_at(index) vec2(0.5)
+void nearest_sample(vec2 at_px, out ivec2 pixel, out int index) {
+    pixel = ivec2(floor(at_px));
+    index = 0;
+}
+#else
 uniform vec2 sample_px[SAMPLES];
-// The sample of a picture that is nearest to a place.
+#define sample_at(index) sample_px[index]
 void nearest_sample(vec2 at_px, out ivec2 pixel, out int index) {
     float least = 4.0;
     for (int i = 0; i < SAMPLES; ++i) {
@@ -56,6 +63,7 @@ void nearest_sample(vec2 at_px, out ivec2 pixel, out int index) {
         index = i;
     }
 }
+#endif
 
 // A sample of the older buffer, and where between samples that what it shows lies that is seen here now, at depth z.
 struct Hit {
@@ -68,7 +76,7 @@ struct Hit {
 // The older buffer's colour between pixels, of the same thing in a level; and the sample's own order of appearance. is_there: some
 // of the pixels round the place show that.
 vec4 older_colour(Hit hit, uint level, out bool is_there) {
-    vec2 at = hit.at_px - sample_px[gl_SampleID], base = floor(at + 1.0 / 256.0), share = max(at - base, 0.0);
+    vec2 at = hit.at_px - sample_at(gl_SampleID), base = floor(at + 1.0 / 256.0), share = max(at - base, 0.0);
     if (share.x < 1.0 / 128.0) share.x = 0.0;
     if (share.y < 1.0 / 128.0) share.y = 0.0;
     vec4 own = fetch_sample(old_colour, hit.pixel, hit.index);
@@ -98,7 +106,7 @@ bool follow(mat4 old_from_new, mat4 new_from_old, vec2 at_px, float z, uint id, 
         hit.level = ids.y;
         if (id != ~0u && hit.id != id) return false;
         float there_z = stored_z(fetch_sample(old_depth, hit.pixel, hit.index).r);
-        vec3 here = moved(new_from_old, clip_of(vec2(hit.pixel) + sample_px[hit.index]), there_z);
+        vec3 here = moved(new_from_old, clip_of(vec2(hit.pixel) + sample_at(hit.index)), there_z);
         vec2 off = abs(here.xy - at_px);
         z = here.z;
         if (max(off.x, off.y) > 0.75) continue;

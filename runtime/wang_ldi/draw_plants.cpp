@@ -48,11 +48,11 @@ vec3 around(vec3 normal, float sky_share) {
 }
 
 void main() {
-    Item item = items[item_of];
-    vec3 own = unlit_colour(item.is_plain != 0u);
+    Item item = own_item();
+    vec3 own = unlit_colour(item.is_plain);
     vec3 face = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
     if (dot(face, surface.relative_m) > 0.0) face = -face;
-    vec3 normal = has_normals && item.is_plain == 0u ? normalize(surface.normal) : face;
+    vec3 normal = has_normals && !item.is_plain ? normalize(surface.normal) : face;
     if (dot(normal, face) < 0.0) normal = is_card ? reflect(normal, face) : -normal;
     float place = clamp(item.scale * (surface.rest_m.z + foot_m) / canopy_top_m, 0.0, 1.0) * 31.0;
     vec2 shares = mix(open[int(place)], open[min(int(place) + 1, 31)], fract(place));

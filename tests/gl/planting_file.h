@@ -8,11 +8,12 @@
 
 namespace overlook::wang_ldi {
 
-// Sixteen tiles of 2 m, two levels, four directions, sampled for eyes 1 to 2.5 m high and 1 to 30 m away.
+// Lit from the south; sixteen tiles of 2 m, two levels, four directions, sampled for eyes 1 to 2.5 m high and 1 to 30 m away.
 inline ImageSet mound_images() {
     ImageSet set = paper_images(16);
     set.levels = {{48, 1, 0.01f, 1.5f}, {24, 8, 0.02f, 1.5f}};
     set.direction_count = 4, set.cell.farthest_m = 30;
+    set.to_sun = {0, -0.6, 0.8};
     return set;
 }
 
