@@ -52,7 +52,8 @@ bool Director::divide(uint32_t instance) {
         return int64_t(seen_count(level.bunches, placement, eye_m_, with_side(sides_, normal, is_along)));
     };
     int64_t even = count(fine, true) + count(coarse, false), odd = count(fine, false) + count(coarse, true);
-    auto all = int64_t(triangles_seen(instance, finer(transition)) + triangles_seen(instance, coarser(transition)));
+    auto all =
+        int64_t(seen_count(fine.bunches, placement, eye_m_, sides_) + seen_count(coarse.bunches, placement, eye_m_, sides_));
     bool pays = std::abs(even - odd) < all / 4 && double(even + odd - all) <= kMostTwice * double(all);
     if (pays) partly_[instance] = {split, even - odd};
     return pays;

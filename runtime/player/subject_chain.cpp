@@ -79,7 +79,10 @@ class ChainSubject : public Subject {
     double least_speed_m_s() const override { return kLeastSpeedShare * least_radius_m_; }
 
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
+        bool is_first = frames_ == nullptr;
         if (Result<void> ready = make_ready(style); !ready) return tl::unexpected(ready.error());
+        if (is_first)
+            if (Result<void> prepared = frames_->prepare(camera, target); !prepared) return tl::unexpected(prepared.error());
         FrameRecord record;
         record.asked_error_px = style.error_px;
         if (has_drawn_) clip_s_ += style.dt_s;

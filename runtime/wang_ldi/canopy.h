@@ -14,6 +14,7 @@
 namespace overlook::wang_ldi {
 
 constexpr uint32_t kCanopySteps = 32;
+constexpr uint32_t kCanopyForm = 1;  // counts up when canopy_of() finds other shares
 
 struct Canopy {
     double top_m = 0;  // nothing stands higher

@@ -1,8 +1,11 @@
 #include "runtime/wang_ldi/draw_plants.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "runtime/discrete/draw_shaders.h"
 #include "runtime/wang_ldi/baked_light.h"
 #include "runtime/wang_ldi/canopy.h"
 
@@ -78,6 +81,14 @@ void set_light(const gl::Program& program, const discrete::Chain& chain, const C
 }
 
 }  // namespace
+
+std::string plant_look_text() {
+    BakedLight light;
+    std::string text = std::string(discrete::shaders::kItemInputs) + discrete::shaders::kVertex + discrete::shaders::kItem +
+                       discrete::shaders::kFragment + kUnlitMain + kSunlitMain;
+    for (const glm::vec3& one : {light.sun, light.sky, light.ground}) text += fmt::format("{} {} {} ", one.x, one.y, one.z);
+    return text + fmt::format("{} {}", light.transmission, kCanopyForm);
+}
 
 Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun) {
     Plants made;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "formats/discrete.h"
@@ -20,6 +21,9 @@ struct PlantCounts {
     uint64_t triangle_count = 0;  // submitted
     uint64_t draw_call_count = 0, uploaded_bytes = 0;
 };
+
+// All that says what a plant looks like beside its chain: what pictures that are kept depend on.
+std::string plant_look_text();
 
 // A context must be current.
 class Plants {

@@ -56,6 +56,7 @@ class Chain : public Method {
     bool set_triangles(double triangles) override {
         if (triangles <= 0) {
             keeper_.reset();
+            ask_for(asked_.select.error_px);
         } else if (keeper_) {
             keeper_->set_triangles(triangles);
         } else {

@@ -33,14 +33,6 @@ double same_share(std::span<const wang_ldi::Shown> a, std::span<const wang_ldi::
     return same;
 }
 
-wang_ldi::ImageStreaming streaming_of(const MethodSpec& spec) {
-    wang_ldi::ImageStreaming streaming;
-    streaming.settings.residency_budget_bytes = uint64_t(setting(spec, std::string(kMemoryMib.name)) * (1 << 20));
-    streaming.settings.upload_budget_bytes = streaming.settings.residency_budget_bytes;
-    streaming.settings.latency_frames = 1, streaming.waits = true;
-    return streaming;
-}
-
 class Planting : public Method {
   public:
     Planting(World& world, const MethodSpec& spec) : world_(world), asked_(planting_options(spec)) {
@@ -51,7 +43,7 @@ class Planting : public Method {
         if (controller_) {
             wang_ldi::FrameOptions options = asked_;
             options.error_px = controller_->error_px();
-            if (options != frames_->options()) frames_->change(options);
+            if (options != frames_->options()) still(frames_->change(options));
         }
         still(frames_->decide(camera, double(frame - last_frame_) * world_.step_s, terrain::kDefaultMorph));
         last_frame_ = frame;
@@ -85,7 +77,7 @@ class Planting : public Method {
     bool set_triangles(double cost) override {
         if (cost == 0) {
             controller_.reset();
-            frames_->change(asked_);
+            still(frames_->change(asked_));
             return true;
         }
         view::ErrorBudget budget{cost, asked_.error_px, false};
@@ -114,6 +106,14 @@ wang_ldi::FrameOptions planting_options(const MethodSpec& spec) {
     for (const auto& [name, value] : spec.settings)
         if (name != kMemoryMib.name && name != kSamples.name) wang_ldi::set(options, name, value);
     return options;
+}
+
+wang_ldi::ImageStreaming streaming_of(const MethodSpec& spec) {
+    wang_ldi::ImageStreaming streaming;
+    streaming.settings.residency_budget_bytes = uint64_t(setting(spec, std::string(kMemoryMib.name)) * (1 << 20));
+    streaming.settings.upload_budget_bytes = streaming.settings.residency_budget_bytes;
+    streaming.settings.latency_frames = 1, streaming.waits = true;
+    return streaming;
 }
 
 uint64_t exchanged_tiles(const wang_ldi::FieldList& before, const wang_ldi::FieldList& now) {

@@ -17,6 +17,8 @@ std::vector<SettingKind> planting_settings(wang_ldi::Variant variant);
 
 // Of a method that is wang-ldi.
 wang_ldi::FrameOptions planting_options(const MethodSpec& spec);
+// How its images come: waited for, within memory-mib.
+wang_ldi::ImageStreaming streaming_of(const MethodSpec& spec);
 
 // Tiles in both lists, of the same field, of which at least half the places are shown by other means in the second: what changes
 // at once, and not by fading.

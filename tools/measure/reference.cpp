@@ -10,6 +10,7 @@
 #include "runtime/discrete/draw_shaders.h"
 #include "runtime/gl/surface_shaders.h"
 #include "runtime/terrain/draw_shaders.h"
+#include "runtime/wang_ldi/draw_plants.h"
 #include "tools/measure/capture.h"
 #include "tools/measure/reference_cache.h"
 
@@ -28,13 +29,11 @@ std::string shaders_hash(const World& world) {
     std::string ground_text = std::string(ground::kTerrainVertexInputs) + ground::kRasterCells + ground::kTerrainVertexMain +
                               ground::kAir + ground::kTerrainFragment + ground::kSkyRowFragment + ground::kSkyFragment;
     if (world.is_planted()) {
-        return hash_of(shared + ground_text + discrete::shaders::kItemInputs + discrete::shaders::kVertex +
-                       discrete::shaders::kFragment + discrete::shaders::kOnePictureMain +
-                       fmt::format("{} {}", kPlantError_px, kPlantsUpTo_m));
+        return hash_of(shared + ground_text + wang_ldi::plant_look_text() + fmt::format("{} {}", kPlantError_px, kPlantsUpTo_m));
     }
     if (world.is_chain()) {
-        return hash_of(shared + discrete::shaders::kItemInputs + discrete::shaders::kVertex + discrete::shaders::kFragment +
-                       discrete::shaders::kOnePictureMain);
+        return hash_of(shared + discrete::shaders::kItemInputs + discrete::shaders::kVertex + discrete::shaders::kItem +
+                       discrete::shaders::kFragment + discrete::shaders::kOnePictureMain);
     }
     if (world.is_mesh()) {
         return hash_of(shared + mesh::kMeshVertexInputs + mesh::kMeshVertexMain + mesh::kMeshFragment +

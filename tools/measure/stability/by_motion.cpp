@@ -88,7 +88,8 @@ Result<Finding> follow(Stage& stage, const MethodSpec& spec, const std::vector<v
     finding.figures["ghost_share"] =
         is_shown ? double(found.ghost_px) / double(found.trail_px) : std::numeric_limits<double>::infinity();
     finding.sentence = fmt::format(
-        "{} things move, {} changes of level begin. Of {} pixels that they left in the {} frames before, {} show what the truth has "
+        "{} things move, {} changes of level begin. Of {} pixels that they left in the {} frames before, {} show what the truth "
+        "has "
         "nowhere within {} pixels of them; {} in the worst frame.",
         moving, found.changes, found.trail_px, kTrailFrames, found.ghost_px, margin_px, found.worst_px);
     if (!is_shown) finding.sentence += " Nothing moves, or no level changes: nothing is shown of what would be left behind.";

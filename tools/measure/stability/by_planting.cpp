@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/terrain/refine.h"
 #include "runtime/wang_ldi/field.h"
 #include "tools/measure/planting_method.h"
 #include "tools/measure/stability/stage.h"
@@ -51,24 +52,19 @@ void add_half(const wang_ldi::Placement& placement, const wang_ldi::Item& item, 
         }
 }
 
-Result<void> add_frame(const wang_ldi::PlantedField& planted, const MethodSpec& spec, const view::Camera& camera, uint32_t frame,
-                       Shear& all) {
-    uint32_t texture_side_px = planted.textures() ? planted.textures()->side_px : 1;  // only beyond the images, which are judged
-    wang_ldi::FieldOptions options =
-        field_options_of(planted.images().set(), planting_options(spec), view::focal_px(camera), texture_side_px);
-    Result<wang_ldi::Field> field = wang_ldi::Field::of(planted.parts(), options);
-    if (!field) return tl::unexpected(field.error());
-    wang_ldi::FieldList list;
-    field->list(camera, list);
+Result<void> add_frame(wang_ldi::FrameDrawer& frames, const wang_ldi::Placement& placement, const view::Camera& camera,
+                       uint32_t frame, Shear& all) {
+    if (Result<void> decided = frames.decide(camera, 0, terrain::kDefaultMorph); !decided) return decided;
+    const wang_ldi::FieldList& list = frames.list();
     all.too_steep = std::max(all.too_steep, list.counts.tiles_by_verdict[size_t(wang_ldi::Verdict::too_steep)]);
     for (const wang_ldi::Item& item : list.items) {
         auto is_image = [&](const wang_ldi::Shown& shown) {
-            return field->ladder().rungs[shown.rung].stage == wang_ldi::Stage::ldi;
+            return frames.field().ladder().rungs[shown.rung].stage == wang_ldi::Stage::ldi;
         };
         std::span<const wang_ldi::Shown> shown = list.shown_of(item);
         if (std::none_of(shown.begin(), shown.end(), is_image)) continue;  // geometry stands on the ground itself
         all.tiles += item.half_count > 0;
-        for (const wang_ldi::Half& half : list.halves_of(item)) add_half(planted.placement(), item, half, camera, frame, all);
+        for (const wang_ldi::Half& half : list.halves_of(item)) add_half(placement, item, half, camera, frame, all);
     }
     return {};
 }
@@ -79,9 +75,12 @@ Result<Finding> planted_shear(Stage& stage, const MethodSpec& spec, const scene:
     Stage few = stage;
     few.frames = stage.frames == 0 ? kMostFrames : std::min(stage.frames, kMostFrames);
     std::vector<view::Camera> cameras = cameras_of(few, flight, Pick::spread);
+    const wang_ldi::PlantedField& planted = stage.world.planted->planted();
+    auto frames = wang_ldi::FrameDrawer::make(planted, stage.world.planted->land(), planting_options(spec), streaming_of(spec));
+    if (!frames) return tl::unexpected(frames.error());
     Shear all;
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
-        Result<void> added = add_frame(stage.world.planted->planted(), spec, cameras[frame], frame, all);
+        Result<void> added = add_frame(**frames, planted.placement(), cameras[frame], frame, all);
         if (!added) return tl::unexpected(added.error());
     }
     if (!all.worst_frame) return impossible("{}: no tile of this flight is drawn by images", label_of(spec));
@@ -98,17 +97,18 @@ Result<Finding> planted_shear(Stage& stage, const MethodSpec& spec, const scene:
     return finding;
 }
 
-void say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::vector<view::Camera>& cameras,
-                   std::vector<Finding>& findings) {
+Result<void> say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::vector<view::Camera>& cameras,
+                           std::vector<Finding>& findings) {
     const wang_ldi::PlantedField& planted = stage.world.planted->planted();
     const wang_ldi::Cell& cell = planted.images().set().cell;
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, 1);
+    if (!target) return tl::unexpected(target.error());
     for (size_t i = 0; i < specs.size(); ++i) {
         std::unique_ptr<Method> method = stage.make(specs[i], stage.world);
         uint32_t outside = 0, unsaid = 0;
         for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
             method->decide(cameras[frame], frame);
-            bool is_said = target && method->draw(*target).is_eye_outside;
+            bool is_said = method->draw(*target).is_eye_outside;
             double above_m = cameras[frame].position_m.z - planted.ground().height_m(glm::dvec2(cameras[frame].position_m));
             bool is_outside = !(above_m >= cell.eye_low_m && above_m <= cell.eye_high_m);
             outside += is_outside, unsaid += is_outside && !is_said;
@@ -116,10 +116,10 @@ void say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::v
         findings[i].figures["fallbacks_unsaid"] = unsaid;
         findings[i].sentence = fmt::format(
             "Images were sampled for eyes {:g} to {:g} m above the ground; {} of {} frames are outside of that, {} of them "
-            "without "
-            "saying so.",
+            "without saying so.",
             cell.eye_low_m, cell.eye_high_m, outside, cameras.size(), unsaid);
     }
+    return {};
 }
 
 }  // namespace overlook::measure

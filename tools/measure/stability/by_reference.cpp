@@ -302,7 +302,7 @@ Result<std::vector<Finding>> run_climb(Stage& stage, const Case&, const scene::F
     Result<std::vector<Finding>> findings = count_holes(stage, cameras, flight.step_s, specs);
     if (!findings) return findings;
     if (stage.world.is_planted()) {
-        say_fallbacks(stage, specs, cameras, *findings);
+        if (Result<void> said = say_fallbacks(stage, specs, cameras, *findings); !said) return tl::unexpected(said.error());
         return findings;
     }
     // A terrain is baked for every distance down to where its own heights are too coarse for the error asked: nearer, it falls

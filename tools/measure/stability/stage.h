@@ -120,7 +120,7 @@ double displacement_of(Method& method);
 Result<Finding> shear_of(Stage& stage, const MethodSpec& spec, const scene::Flight& flight);
 
 // S08 of planted ground: adds whether every frame whose eye is higher or lower than images were sampled for was said to be such.
-void say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::vector<view::Camera>& cameras,
+Result<void> say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::vector<view::Camera>& cameras,
                    std::vector<Finding>& findings);
 
 // S11 of planted ground: how far, on the picture, the sheared ground under drawn images stands from the real one; not of what is

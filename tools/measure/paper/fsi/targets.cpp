@@ -54,8 +54,8 @@ Target pop(const Flown& flown) {
     is = of_films(flown, is, worse_end);
     if (!is.is_reached(1))
         is.why =
-            "a tile in which a thing becomes another changes by an eighth of their difference in each of eight frames, whatever "
-            "the way, and the floor hardly changes; of each film: " +
+            "a tile in which a thing becomes another changes by up to a seventh of their difference a frame by fsi, an eighth by "
+            "the others, and the floor hardly changes; of each film: " +
             each(flown, worse_end);
     return is;
 }

@@ -27,7 +27,7 @@ constexpr Remedy kRemedies[] = {{"holes filled", "fill=0"},
                                 {"textures and colours to the horizon", "far=0"},
                                 {"hidden by depth, not by order", "depth=0"},
                                 {"tiles in pieces, better diagonals", "cuts=0"},
-                                {"near tiles as geometry", "geometry-m=0"}};
+                                {"near tiles as geometry", "geometry=0"}};
 
 // Runs, and what is said of them.
 class Runs {
@@ -53,11 +53,8 @@ class Runs {
     }
     void add_remedies() {
         add_own_and_paper("remedy", "", 1);
-        for (const Remedy& remedy : kRemedies) {
-            std::string own = std::string(remedy.setting).starts_with("geometry") ? "wang-ldi" : "wang-ldi" + near();
-            std::string off = std::string(remedy.setting).starts_with("geometry") ? "" : "@" + std::string(remedy.setting);
-            add(own + off, {"remedy", "Overlook", remedy.what, 1});
-        }
+        for (const Remedy& remedy : kRemedies)
+            add("wang-ldi" + near() + "@" + remedy.setting, {"remedy", "Overlook", remedy.what, 1});
     }
     void add_radii() {
         for (double tiles : kRadii_tiles) {
