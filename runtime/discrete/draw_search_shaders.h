@@ -117,14 +117,19 @@ bool follow(mat4 old_from_new, mat4 new_from_old, vec2 at_px, float z, uint id, 
     return false;
 }
 // The same of something under way: from a guess if that is above 0, then wherever between its nearest and its farthest place it
-// may be.
+// may be. Most starts meet something else, which one look at what is there says.
 bool find(uint entry, Way one, vec2 at_px, float guess_z, out Hit hit) {
     vec2 clip = clip_of(at_px);
-    vec2 span = moved(back_of(entry), clip, one.near_z).xy - moved(back_of(entry), clip, one.far_z).xy;
+    mat4 back = back_of(entry);
+    vec4 start = back * vec4(clip, 0.0, 1.0), along = back[2];
+    uint id = stored_id(one.id);
+    vec2 span = place_px(start + one.near_z * along) - place_px(start + one.far_z * along);
     int steps = clamp(int(ceil(max(abs(span.x), abs(span.y)))), 1, 8);
     for (int i = guess_z > 0.0 ? -1 : 0; i < steps; ++i) {
         float z = i < 0 ? guess_z : mix(one.near_z, one.far_z, (float(i) + 0.5) / float(steps));
-        if (follow(back_of(entry), forth_of(entry), at_px, z, stored_id(one.id), hit)) return true;
+        nearest_sample(place_px(start + z * along), hit.pixel, hit.index);
+        if (!is_inside(hit.pixel) || stored_id(fetch_sample(old_ids, hit.pixel, hit.index).x) != id) continue;
+        if (follow(back, forth_of(entry), at_px, z, id, hit)) return true;
     }
     return false;
 }

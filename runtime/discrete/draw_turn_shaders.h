@@ -28,9 +28,12 @@ bool is_inside(ivec2 at) {
 vec2 clip_of(vec2 at_px) {
     return 2.0 * at_px / vec2(size_px) - 1.0;
 }
+vec2 place_px(vec4 at) {
+    return at.w > 0.0 ? (0.5 * at.xy / at.w + 0.5) * vec2(size_px) : vec2(-1.0);
+}
 vec3 moved(mat4 by, vec2 clip, float z) {
     vec4 at = by * vec4(clip, z, 1.0);
-    return at.w > 0.0 ? vec3((0.5 * at.xy / at.w + 0.5) * vec2(size_px), at.z / at.w) : vec3(-1.0);
+    return at.w > 0.0 ? vec3(place_px(at), at.z / at.w) : vec3(-1.0);
 }
 )";
 
