@@ -13,6 +13,23 @@ constexpr int kAngles = 64;
 struct Leaf {
     double height_m, shade_m2;
 };
+// Of a model, from the lowest up, and what all up to each take together.
+struct Leaves {
+    std::vector<double> heights_m, sums_m2;
+
+    explicit Leaves(std::vector<Leaf> all) {
+        std::sort(all.begin(), all.end(), [](const Leaf& a, const Leaf& b) {
+            return a.height_m < b.height_m || (a.height_m == b.height_m && a.shade_m2 < b.shade_m2);
+        });
+        double sum_m2 = 0;
+        for (const Leaf& leaf : all) heights_m.push_back(leaf.height_m), sums_m2.push_back(sum_m2 += leaf.shade_m2);
+    }
+    double up_to_m2(double height_m) const {
+        auto above = size_t(std::upper_bound(heights_m.begin(), heights_m.end(), height_m) - heights_m.begin());
+        return above == 0 ? 0 : sums_m2[above - 1];
+    }
+};
+constexpr double kLowestSun = 1e-3;  // what of to_sun goes up; a lower one is taken as that low
 
 // Of a leaf that hangs at random half of its area is seen; of what is closed, half of that half lies behind the rest.
 std::vector<Leaf> leaves_of(const discrete::Chain& chain) {
@@ -30,11 +47,12 @@ std::vector<Leaf> leaves_of(const discrete::Chain& chain) {
     return leaves;
 }
 
-double top_of(const Planting& planting, std::span<const std::vector<Leaf>> leaves) {
+double top_of(const Planting& planting, std::span<const Leaves> leaves) {
     double top_m = 0;
     for (const auto& tile : planting.tiles)
         for (const Planted& object : tile)
-            for (const Leaf& leaf : leaves[object.model]) top_m = std::max(top_m, leaf.height_m * double(object.scale));
+            if (const Leaves& own = leaves[object.model]; !own.heights_m.empty())
+                top_m = std::max(top_m, own.heights_m.back() * double(object.scale));
     return top_m;
 }
 
@@ -51,8 +69,8 @@ double sky_through(double shade) {
 }  // namespace
 
 Canopy canopy_of(const Planting& planting, std::span<const discrete::Chain> chains, const glm::dvec3& to_sun) {
-    std::vector<std::vector<Leaf>> leaves;
-    for (const discrete::Chain& chain : chains) leaves.push_back(leaves_of(chain));
+    std::vector<Leaves> leaves;
+    for (const discrete::Chain& chain : chains) leaves.emplace_back(leaves_of(chain));
     Canopy canopy;
     canopy.open.fill(glm::vec2(1));
     canopy.top_m = top_of(planting, leaves);
@@ -67,16 +85,20 @@ Canopy canopy_of(const Planting& planting, std::span<const discrete::Chain> chai
         }
     if (below_m2 > 0) ground_m2 = std::min(ground_m2, below_m2);
     for (const auto& tile : planting.tiles)
-        for (const Planted& object : tile)
-            for (const Leaf& leaf : leaves[object.model]) {
-                double place = leaf.height_m * double(object.scale) / canopy.top_m * (kCanopySteps - 1);
-                auto layer = size_t(std::clamp(std::round(place), 0.0, double(kCanopySteps - 1)));
-                shade[layer] += leaf.shade_m2 * double(object.scale) * double(object.scale) / ground_m2;
+        for (const Planted& object : tile) {
+            const Leaves& own = leaves[object.model];
+            double scale = double(object.scale), step_m = canopy.top_m / (kCanopySteps - 1) / scale, below_layer_m2 = 0;
+            for (size_t layer = 0; layer < kCanopySteps; ++layer) {
+                double up_m = layer + 1 < kCanopySteps ? (double(layer) + 0.5) * step_m : INFINITY;
+                double sum_m2 = own.up_to_m2(up_m);
+                shade[layer] += (sum_m2 - below_layer_m2) * scale * scale / ground_m2;
+                below_layer_m2 = sum_m2;
             }
+        }
     double above = 0;
     for (size_t layer = kCanopySteps; layer-- > 0;) {
         double here = above + shade[layer] / 2;
-        canopy.open[layer] = {std::exp(-here / to_sun.z), sky_through(here)};
+        canopy.open[layer] = {std::exp(-here / std::max(to_sun.z, kLowestSun)), sky_through(here)};
         above += shade[layer];
     }
     return canopy;

@@ -24,7 +24,8 @@ struct Canopy {
 
 // chains: one a model of the planting, whose finest levels count: surfaces that are seen from behind too with both sides, others
 // as what they enclose. Leaves stand together in plants, whose tight radii they keep, and so shade each other more than if they
-// hung everywhere. to_sun: of length 1, z > 0. Everywhere 1 if nothing is planted. O(triangles of the finest levels).
+// hung everywhere. to_sun: of length 1. Everywhere 1 if nothing is planted.
+// O(triangles of the finest levels + what is planted).
 Canopy canopy_of(const Planting& planting, std::span<const discrete::Chain> chains, const glm::dvec3& to_sun);
 
 }  // namespace overlook::wang_ldi

@@ -65,10 +65,15 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const PlantedField& plant
 
     const ImageSet& set = planted.images().set();
     const ImageStore& images = *made->store_;
-    made->far_ = FarImages(planted.textures() ? *planted.textures() : textures_of_images(set, [&](uint64_t index) {
+    ImageAt image_at = [&](uint64_t index) {
         const StoredImage* image = images.at(index);
         return image == nullptr ? nullptr : &image->ldi;
-    }));
+    };
+    std::optional<TextureSet> of_images;
+    if (!planted.textures()) of_images = textures_of_images(set, image_at);
+    const TextureSet& textures = of_images ? *of_images : *planted.textures();
+    if (Result<void> fits = FarImages::check(textures, planted.name()); !fits) return tl::unexpected(fits.error());
+    made->far_ = FarImages(textures);
     Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, 1, made->far_.side_px()));
     if (!field) return tl::unexpected(field.error());
     return made;
@@ -206,7 +211,10 @@ void FrameDrawer::splat(Slot& slot) {
 }
 
 void FrameDrawer::warp(Slot& slot) {
-    if (splats_) return;
+    if (splats_) {
+        slot.picture.clear(0, 0);  // the card has it, and none is left of an earlier way
+        return;
+    }
     Clock clock;
     bool is_paper = options_.variant == Variant::paper;
     if (is_paper || options_.is_exact) {

@@ -59,7 +59,7 @@ struct FrameCounts {
     uint32_t threads = 1;
     bool is_warped_by_card = false;   // of warp then only `samples`, of all that is drawn, and images_missing are counted
     double list_ms = 0, warp_ms = 0;  // warp_ms: beside other work, of one that is pipelined; of the card until it has its orders
-    double predicted_error_px = 0;    // of the terrain, and of tiles off it
+    double predicted_error_px = 0;    // of the terrain alone
 };
 
 // Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
@@ -117,7 +117,7 @@ class FrameDrawer {
     ImageStreaming streaming_;
     std::unique_ptr<ImageStore> store_;
     std::optional<Composite> composite_;
-    std::optional<Splats> splats_;  // once they were asked for
+    std::optional<Splats> splats_;  // while the card warps
     bool is_software_ = false;      // the renderer
     FarImages far_;
     RingImages rings_;

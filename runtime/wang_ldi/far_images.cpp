@@ -31,6 +31,11 @@ struct FarBox {
     double tall_m() const { return high_m - low_m; }
 };
 
+// Slices of a box about as high as they are wide.
+uint32_t slices_of(const FarBox& box, double wide_m) {
+    return uint32_t(std::clamp(std::ceil(box.tall_m() / wide_m), 1.0, double(kMostSlices)));
+}
+
 class PictureMaker {
   public:
     PictureMaker(const TextureSet& set, const DirectionalTexture& texture, uint32_t tile, uint32_t direction, uint32_t level)
@@ -61,13 +66,13 @@ class PictureMaker {
         }
         return weights > 0 ? sum / weights : 0;
     }
-    // The box in slices about as high as they are wide, each there or not.
+    // The box in slices, each there or not.
     void add_texel(uint32_t column, uint32_t row) {
         size_t texel = at_ + size_t(row) * picture_.side_px + column;
         double opacity = texture_.colours[texel][3] / 255.0;
         FarBox box(set_, texture_.heights[texel]);
         if (opacity == 0 || box.tall_m() <= 0) return;
-        auto slices = uint32_t(std::clamp(std::ceil(box.tall_m() / wide_m_), 1.0, double(kMostSlices)));
+        uint32_t slices = slices_of(box, wide_m_);
         double slice_m = box.tall_m() / slices, most = kMostRows * (1 + kMostRise * texel_m_ / double(picture_.high_m));
         for (uint32_t s = 0; s < slices; ++s) {
             double place = double(spread_at(column, row)) + s * kGolden + shift_;
@@ -92,6 +97,22 @@ float spread_at(int64_t column, int64_t row) {
     // The inverse of the plastic number and its square, as parts of 2^64.
     uint64_t sum = uint64_t(column) * 0xc13fa9a902a6328fu + uint64_t(row) * 0x91e10da5c79e7b1du;
     return float(sum >> 40) * 0x1p-24f;
+}
+
+Result<void> FarImages::check(const TextureSet& textures, const std::string& file) {
+    uint64_t points = 0;
+    for (size_t t = 0; t < textures.textures.size(); ++t) {
+        const DirectionalTexture& texture = textures.textures[t];
+        double breadth = breadth_of(uint32_t(t % textures.direction_count), textures.direction_count);
+        for (uint32_t level = 0; level < texture_levels(textures.side_px); ++level) {
+            size_t side = textures.side_px >> level, at = texture_level_at(textures.side_px, level);
+            double wide_m = textures.tile_m / double(side) * breadth;
+            for (size_t texel = at; texel < at + side * side; ++texel)
+                if (texture.colours[texel][3] > 0) points += slices_of(FarBox(textures, texture.heights[texel]), wide_m);
+        }
+    }
+    if (points <= kMostPoints) return {};
+    return impossible("{}: directional textures that may need {} points; {} at most", file, points, kMostPoints);
 }
 
 FarImages::FarImages(const TextureSet& textures)

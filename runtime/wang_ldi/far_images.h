@@ -10,7 +10,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <string>
 #include <vector>
 
 #include "formats/wang_textures.h"
@@ -51,7 +51,11 @@ struct FarMean {
 class FarImages {
   public:
     FarImages() = default;  // nothing is anywhere
-    // O(texels).
+    // Whether they fit: at most kMostPoints, and 64 a texel. Else Exit::impossible, which names the file: "meadow.ovl:
+    // directional textures that may need 17,000,000,000 points; 67,108,864 at most". O(texels).
+    static Result<void> check(const TextureSet& textures, const std::string& file);
+    static constexpr uint64_t kMostPoints = 1u << 26;
+    // Of textures that fit. O(points).
     explicit FarImages(const TextureSet& textures);
 
     bool is_empty() const { return pictures_.empty(); }

@@ -14,7 +14,7 @@ constexpr uint32_t kFinestSide_px = 32;
 // What is seen over a square.
 struct Sum {
     uint64_t samples = 0;
-    std::array<double, 3> light{}, normal{};
+    std::array<double, 3> light{};
     double height_m = 0, height_squared = 0;
 
     void add(const Sum& other) {

@@ -76,7 +76,7 @@ struct Item {
     uint8_t context = 0;  // of images
     uint8_t pieces_log2 = 0;
     bool is_planted_throughout = true;  // of a block; else ask the placement at each place
-    bool is_outside_cell = false;       // some image is drawn for an eye that it was not sampled for (is_sampled_for)
+    bool is_outside_cell = false;       // some image would be, were all at hand, drawn for an eye that it was not sampled for
     uint32_t first_shown = 0, shown_count = 0;
     uint32_t first_half = 0, half_count = 0;  // back to front; none unless images or geometry are shown
     uint32_t coarser_px = 0;                  // side of the coarsest image or texture of a tile, for rung_threshold; of a block 0

@@ -58,6 +58,12 @@ TEST(BakeKeys, OfBakesThatDifferInOneThingDiffer) {
         [](Bake& of) { of.bake.neighbourhoods = 2; },
         [](Bake& of) { of.bake.memory_bytes = 1; },
         [](Bake& of) { of.bake.seed = 2; },
+        [](Bake& of) { of.bake.has_gloss = false; },
+        [](Bake& of) { of.bake.trial_tiles = 1; },
+        [](Bake& of) { of.bake.judged_views = 7; },
+        [](Bake& of) { of.models.skins[0].looks.push_back({}); },
+        [](Bake& of) { of.models.skins[0].looks[0].roughness = 0.5f; },
+        [](Bake& of) { of.models.skins[0].looks[0].metallic = 0.5f; },
         [](Bake& of) { of.bake.instructions = rays::Instructions::everywhere; },
     };
     std::set<uint64_t> keys{Bake().key()};

@@ -37,6 +37,12 @@ class TileBake {
     Shard texture(std::span<const TraceStage> stages, const TextureSet& set, uint64_t index) const;
 
   private:
+    // What is baked is lit by; what it is judged by keeps its gloss.
+    Light own_light() const {
+        Light light = bake_.light;
+        light.has_gloss = bake_.has_gloss;
+        return light;
+    }
     std::vector<glm::vec3> colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
                                       uint64_t seed) const;
     const Models& models_;
@@ -46,9 +52,7 @@ class TileBake {
 
 std::vector<glm::vec3> TileBake::colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
                                             uint64_t seed) const {
-    Light light = bake_.light;
-    light.has_gloss = bake_.has_gloss;
-    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, middle_eye_m(wedge), light, seed);
+    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, middle_eye_m(wedge), own_light(), seed);
     std::vector<glm::vec3> colours;
     for (const Sample& sample : sampled.samples) colours.push_back(sample.albedo);
     return colours;
@@ -77,7 +81,7 @@ Shard TileBake::texture(std::span<const TraceStage> stages, const TextureSet& se
     TextureOptions options = bake_.textures;
     options.seed = hash_of(bake_.seed, kTextureStream, int64_t(index), 0);
     auto direction = uint32_t(index % set.direction_count);
-    TextureSampled all = texture_of(models_, stages, set, direction, bake_.light, options);
+    TextureSampled all = texture_of(models_, stages, set, direction, own_light(), options);
     TextureJudgement judgement;
     if (bake_.judged_views > 0) {
         Judging judging;

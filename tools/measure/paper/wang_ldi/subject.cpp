@@ -79,6 +79,10 @@ Result<Subject> read_subject(const std::string& folder) {
     bool has_directions = std::filesystem::exists(at("one.ovl")) && std::filesystem::exists(at("eight.ovl"));
     if (has_directions && done) done = open(at("one.ovl"), subject.one.emplace());
     if (has_directions && done) done = open(at("eight.ovl"), subject.eight.emplace());
+    if (subject.eight && done)
+        for (auto [name, bake, wanted] : {std::tuple("one.ovl", &*subject.one, 1u), std::tuple("eight.ovl", &*subject.eight, 8u)})
+            if (bake->set().direction_count != wanted)
+                return bad_input("{}: has {} directions; {} are compared", at(name), bake->set().direction_count, wanted);
     if (!done) return tl::unexpected(done.error());
     return subject;
 }
