@@ -209,11 +209,11 @@ HeldGate held(const Trial& trial, const gl::Renderer& renderer, bool is_wrong) {
     std::vector<MethodSpec> specs = *specs_from({is_wrong ? trial.wrong : trial.right}, {});
     Result<SuiteResult> result = run_suite(stage, {given.each}, specs, [](double) {});
     EXPECT_TRUE(result) << result.error().message;
-    if (!result || result->verdicts.size() != 1) return {"nothing was run"};
+    if (!result || result->verdicts.size() != 1) return {"nothing was run", std::nullopt};
     const Verdict& verdict = result->verdicts[0];
     auto found = std::find_if(verdict.gates.begin(), verdict.gates.end(),
                               [&](const HeldGate& gate) { return gate.figure == trial.figure; });
-    if (found == verdict.gates.end()) return {"no such gate"};
+    if (found == verdict.gates.end()) return {"no such gate", std::nullopt};
     EXPECT_EQ(verdict.is_kept(),
               std::all_of(verdict.gates.begin(), verdict.gates.end(), [](const HeldGate& gate) { return gate.is_kept(); }));
     return *found;
@@ -226,8 +226,9 @@ TEST_P(Gate, IsKeptByTheRightAndMissedByTheWrong) {
     HeldGate right = held(GetParam(), context->renderer(), false), wrong = held(GetParam(), context->renderer(), true);
     EXPECT_EQ(right.figure, GetParam().figure);
     EXPECT_EQ(wrong.figure, GetParam().figure);
-    EXPECT_TRUE(right.is_kept()) << right.value << " of " << right.limit;
-    EXPECT_FALSE(wrong.is_kept()) << wrong.value << " of " << wrong.limit;
+    EXPECT_TRUE(right.is_kept()) << sentence_of(right);
+    EXPECT_FALSE(wrong.is_kept()) << sentence_of(wrong);
+    EXPECT_TRUE(right.value && wrong.value);
 }
 
 std::string name_of(const std::string& number, const std::string& figure) {

@@ -84,7 +84,7 @@ TEST_P(MeshGate, IsKeptByTheRightAndMissedByTheWrong) {
         const std::vector<HeldGate>& gates = result->verdicts[0].gates;
         auto gate = std::find_if(gates.begin(), gates.end(), [&](const HeldGate& one) { return one.figure == trial.figure; });
         ASSERT_NE(gate, gates.end());
-        EXPECT_EQ(gate->is_kept(), is_right) << gate->value << ": " << result->verdicts[0].finding.sentence;
+        EXPECT_EQ(gate->is_kept(), is_right) << sentence_of(*gate) << ": " << result->verdicts[0].finding.sentence;
     }
 }
 

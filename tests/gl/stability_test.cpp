@@ -190,11 +190,11 @@ TEST(StabilitySuite, GoesOnWhereItWasBrokenOff) {
     std::vector<Finding> other = {a};
     other[0].figures["hole_pixels"] = std::numeric_limits<double>::infinity();
     ASSERT_TRUE(keep_findings(kept, other));
-    EXPECT_TRUE(std::isinf(run()->verdicts[0].gates[0].value));
+    EXPECT_TRUE(std::isinf(run()->verdicts[0].gates[0].value.value()));
     std::string bytes = text_of_file(kept);
     bytes[bytes.size() / 2] ^= 1;
     ASSERT_TRUE(write_file(kept, std::string_view(bytes)));
-    EXPECT_EQ(run()->verdicts[0].gates[0].value, 0);
+    EXPECT_EQ(run()->verdicts[0].gates[0].value.value(), 0);
 
     stage.program_hash = "another";
     EXPECT_EQ(run()->verdicts[0].finding.sentence, a.sentence);

@@ -51,7 +51,7 @@ TEST(StabilityCase, NamesThePlaceOfEveryMistake) {
     EXPECT_EQ(error_of("\"most\": 1.1, ", ""), "c.json:4:11: /gates/0: has no bound: most or over_asked_px is wanted");
     EXPECT_EQ(error_of("\"most\": 1.1,", "\"most\": 1.1, \"over_asked_px\": 1,"),
               "c.json:4:11: /gates/0: has two bounds: most or over_asked_px is wanted");
-    EXPECT_EQ(error_of("\"image\"", "\"sprites\""), "c.json:4:54: /gates/0/of: geometry, image or all is wanted");
+    EXPECT_EQ(error_of("\"image\"", "\"sprites\""), "c.json:4:54: /gates/0/of: geometry, image, chain, planting or all is wanted");
     EXPECT_EQ(error_of("[\"terrain\"]", "[\"discrete\"]"), "c.json:6:10: /runs/0: discrete is not among the case's methods");
     EXPECT_EQ(error_of("\"lod-sprite\"", "\"terrain\""), "c.json:5:24: /methods/1: terrain stands twice");
     EXPECT_EQ(error_of("\"flight\": \"b.json\",", ""), "c.json:6:9: /runs: a case that runs needs a scene and a flight");

@@ -74,7 +74,7 @@ constexpr std::string_view kFigures[] = {
 constexpr std::string_view kMeshMethods[] = {"lod-sprite", "caveclod", "discrete"};  // draw meshes, the first terrains as well
 constexpr std::string_view kChainMethod = "discrete";                                // draws chains as well
 constexpr std::string_view kPlantingMethod = "wang-ldi";                             // draws plantings and nothing else
-constexpr std::string_view kSides[] = {"all", "geometry", "image"};
+constexpr std::string_view kSides[] = {"all", "geometry", "image", "chain", "planting"};
 
 template <class Names>
 bool is_one_of(const Names& names, std::string_view name) {
@@ -94,7 +94,7 @@ CaseGate read_gate(Form& form, const Node& node) {
         form.fail(form.member(node, "figure"),
                   fmt::format("{} is no figure; did you mean {}?", shown, json::nearest(shown, kFigures)));
     }
-    if (!is_one_of(kSides, gate.of)) form.fail(form.member(node, "of"), "geometry, image or all is wanted");
+    if (!is_one_of(kSides, gate.of)) form.fail(form.member(node, "of"), "geometry, image, chain, planting or all is wanted");
     bool has_most = form.member(node, "most").value != nullptr, has_over = form.member(node, "over_asked_px").value != nullptr;
     if (!has_most && !has_over) form.fail(node, "has no bound: most or over_asked_px is wanted");
     if (has_most && has_over) form.fail(node, "has two bounds: most or over_asked_px is wanted");

@@ -30,7 +30,9 @@ constexpr int kCaseVersion = 1;
 struct CaseGate {
     std::string figure;         // one of figure_names()
     double most = 0;            // the figure is at most this
-    std::string of = "all";     // "geometry" or "image" methods, or "all"
+    // Whom it holds: "geometry" (terrain, caveclod, discrete), "image" (lod-sprite), "chain" (discrete:fsi and its like), "planting"
+    // (wang-ldi) or "all".
+    std::string of = "all";
     double over_asked_px = -1;  // >= 0: most is this much over the asked error in pixels instead
 };
 

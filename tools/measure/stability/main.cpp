@@ -72,10 +72,8 @@ Result<std::string> scene_path(const SuiteOptions& options, const std::vector<Ca
 
 void say_summary(const SuiteResult& result, const std::string& folder, const command::Common& common) {
     for (const Verdict& verdict : result.verdicts) {
-        std::string line =
-            fmt::format("stability: {} {}: {}", verdict.number, family_of(verdict.spec), verdict.is_kept() ? "pass" : "miss");
-        for (const HeldGate& gate : verdict.gates)
-            line += fmt::format(", {} {} (gate {})", gate.figure, short_number(gate.value), short_number(gate.limit));
+        std::string line = fmt::format("stability: {} {}: {}", verdict.number, family_of(verdict.spec), verdict.outcome());
+        for (const std::string& number : verdict.numbers()) line += ", " + number;
         command::note(common, line);
     }
     command::note(common, fmt::format("stability: {} owed; the page: {}/index.html", result.owed.size(), folder));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/measure/page_text.h"
 #include "tools/measure/stability/kept.h"
 
 namespace overlook::measure {
@@ -26,17 +27,9 @@ CaseRunner runner_of(const std::string& number) {
     return nullptr;
 }
 
-// The gates that concern the method.
-std::vector<HeldGate> held(const Case& each, const MethodSpec& spec, const Finding& finding, double asked_px) {
-    std::vector<HeldGate> gates;
-    for (const CaseGate& gate : each.gates) {
-        if (draws_plantings(spec) && !finding.figures.contains(gate.figure)) continue;  // of geometry, or of pictures shown again
-        if (!draws_plantings(spec) && gate.of == (is_image(spec) ? "geometry" : "image")) continue;
-        if (gate.of == "geometry" && is_of_chains_alone(spec)) continue;  // where a level stays or goes, its history says
-        double limit = gate.over_asked_px >= 0 ? asked_px + gate.over_asked_px : gate.most;
-        gates.push_back({gate.figure, finding.figures.at(gate.figure), limit});
-    }
-    return gates;
+// As CaseGate::of has it.
+std::string_view side_of(const MethodSpec& spec) {
+    return draws_plantings(spec) ? "planting" : is_of_chains_alone(spec) ? "chain" : is_image(spec) ? "image" : "geometry";
 }
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
@@ -77,7 +70,7 @@ Result<void> run_case_for(Stage& suite_stage, const Case& each, CaseRunner run, 
     if (!findings) return tl::unexpected(findings.error());
     for (size_t i = 0; i < concerned.size(); ++i) {
         Finding& finding = (*findings)[i];
-        std::vector<HeldGate> gates = held(each, concerned[i], finding, stage.asked_px);
+        std::vector<HeldGate> gates = held_gates(each, concerned[i], finding, stage.asked_px);
         result.verdicts.push_back({each.number, each.what, concerned[i], std::move(gates), std::move(finding), each.note});
     }
     return {};
@@ -118,6 +111,34 @@ Result<void> run_case(Stage& suite_stage, const Case& each, std::span<const Meth
 }
 
 }  // namespace
+
+std::vector<HeldGate> held_gates(const Case& each, const MethodSpec& spec, const Finding& finding, double asked_px) {
+    std::vector<HeldGate> gates;
+    for (const CaseGate& gate : each.gates) {
+        if (gate.of != "all" && gate.of != side_of(spec)) continue;
+        HeldGate held{gate.figure, std::nullopt, gate.over_asked_px >= 0 ? asked_px + gate.over_asked_px : gate.most};
+        if (auto found = finding.figures.find(gate.figure); found != finding.figures.end()) held.value = found->second;
+        gates.push_back(std::move(held));
+    }
+    return gates;
+}
+
+std::string sentence_of(const HeldGate& gate) {
+    std::string value = gate.value ? short_number(*gate.value) : "not measured";
+    return fmt::format("{} {} (gate {})", gate.figure, value, short_number(gate.limit));
+}
+
+std::string_view Verdict::outcome() const {
+    return gates.empty() ? "stated" : is_kept() ? "pass" : "miss";
+}
+
+std::vector<std::string> Verdict::numbers() const {
+    std::vector<std::string> all;
+    for (const HeldGate& gate : gates) all.push_back(sentence_of(gate));
+    if (!gates.empty()) return all;
+    for (const auto& [name, value] : finding.figures) all.push_back(fmt::format("{} {} (no gate)", name, short_number(value)));
+    return all;
+}
 
 bool Verdict::is_kept() const {
     return std::all_of(gates.begin(), gates.end(), [](const HeldGate& gate) { return gate.is_kept(); });

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/measure/stability/stage.h"
@@ -11,9 +13,16 @@ namespace overlook::measure {
 
 struct HeldGate {
     std::string figure;
-    double value = 0, limit = 0;
-    bool is_kept() const { return value <= limit; }
+    std::optional<double> value;  // none if the case's runner has not found it, which keeps no gate
+    double limit = 0;
+    bool is_kept() const { return value && *value <= limit; }
 };
+
+// The gates of the case that hold such a method, each with the finding's figure of its name.
+std::vector<HeldGate> held_gates(const Case& each, const MethodSpec& spec, const Finding& finding, double asked_px);
+
+// "pop_index 1.31 (gate 1.2)"; "pop_index not measured (gate 1.2)".
+std::string sentence_of(const HeldGate& gate);
 
 // One case and one method.
 struct Verdict {
@@ -23,6 +32,10 @@ struct Verdict {
     Finding finding;
     std::string note{};  // the case's
     bool is_kept() const;
+    // "pass" or "miss"; "stated" where no gate of the case holds the method, whose figures are said for their own sake.
+    std::string_view outcome() const;
+    // Of the gates one by one; without any of the figures: "path_difference_grey 2.3 (no gate)".
+    std::vector<std::string> numbers() const;
 };
 
 // A case that a method owes.
