@@ -100,14 +100,15 @@ Combination combination_of(const FrameOptions& options, std::span<const UnderWay
 
 Result<gl::Program> Combiner::make_program(bool is_one, bool moves) const {
     const Remedies& remedies = options_.remedies;
-    std::string defines = define("SAMPLES", int(samples_)) + define("TILE_PX", int(Tiles::kSide_px)) + define("IS_ONE", is_one) +
-                          define("MOVES", moves) + define("KEEPS_HIDDEN", remedies.keeps_hidden) +
-                          define("SEARCHES", remedies.searches) + define("WEIGHS_BY_PHASE", remedies.weighs_by_phase) +
+    std::string defines = define("SAMPLES", int(samples_)) + define("IS_ONE", is_one) + define("MOVES", moves) +
+                          define("KEEPS_HIDDEN", remedies.keeps_hidden) + define("SEARCHES", remedies.searches) +
+                          define("WEIGHS_BY_PHASE", remedies.weighs_by_phase) +
                           define("HAS_LONG_RAMPS", has_long_ramps(remedies)) + define("HAS_WIDE_IDS", remedies.has_wide_ids) +
                           define("HAS_WIDE_DEPTH", remedies.has_wide_depth);
-    std::string vertex = "#version 450 core\n" + defines + shaders::kTileVertex;
-    std::string fragment = "#version 450 core\n" + defines + shaders::kBuffers + shaders::kTwoFrames +
-                           shaders::kCombinationInputs + shaders::kCombinationParts + shaders::kCombinationMain;
+    std::string vertex = "#version 450 core\n" + defines + shaders::kUnderWay + shaders::kTileVertex;
+    std::string fragment = "#version 450 core\n" + defines + shaders::kSamplers + shaders::kCombined + shaders::kPlaces +
+                           shaders::kTwoFrames + (is_one ? "" : shaders::kUnderWay) + shaders::kCombinationInputs +
+                           shaders::kCombinationParts + shaders::kCombinationMain;
     return gl::Program::make("combination", {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 
@@ -116,8 +117,8 @@ Result<Combiner> Combiner::make(const FrameOptions& options, uint32_t samples) {
     made.options_ = options, made.samples_ = samples;
     made.nothing_ = gl::make_vertex_array();
     if (options.variant == Variant::fsi_paper) {
-        std::string text =
-            "#version 450 core\n" + define("SAMPLES", int(samples)) + shaders::kBuffers + shaders::kPaperCombination;
+        std::string text = "#version 450 core\n" + define("SAMPLES", int(samples)) + shaders::kSamplers + shaders::kCombined +
+                           shaders::kPlaces + shaders::kPaperCombination;
         auto paper =
             gl::Program::make("combination", {{GL_VERTEX_SHADER, gl::shaders::kBackgroundVertex}, {GL_FRAGMENT_SHADER, text}});
         if (!paper) return tl::unexpected(paper.error());
@@ -130,6 +131,11 @@ Result<Combiner> Combiner::make(const FrameOptions& options, uint32_t samples) {
             if (!program) return tl::unexpected(program.error());
             made.tiled_[is_one][moves] = std::move(*program);
         }
+    const Remedies& remedies = options.remedies;
+    if (!made.copies_rest() || !remedies.sieves || !remedies.searches || !remedies.has_wide_ids) return made;
+    auto sieve = Sieve::make(samples);
+    if (!sieve) return tl::unexpected(sieve.error());
+    made.sieve_.emplace(std::move(*sieve));
     return made;
 }
 
@@ -153,17 +159,46 @@ void Combiner::fill_tiles(const gl::Target& target, const Combination& combinati
     fill(tiles_, ones), fill(entries_, entries), fill(moved_, combination.moved);
 }
 
+// What is copied keeps its depth as it is.
+bool Combiner::copies_rest() const {
+    return options_.remedies.copies_rest && options_.remedies.has_wide_depth;
+}
+
+uint64_t Combiner::searched_px() const {
+    if (!sieve_) return combined_px_;
+    return std::min(combined_px_, uint64_t(sieve_->block_count()) * Sieve::kBlock_px * Sieve::kBlock_px);
+}
+
 // Returns calls made.
-uint64_t Combiner::draw_tiles(bool is_one, bool moves, const gl::Target& target, const Combination& combination) {
+uint64_t Combiner::draw_tiles(bool is_one, const gl::Target& target, const Combination& combination, bool is_sifted) {
     uint32_t first = is_one ? 0 : one_count_, end = is_one ? one_count_ : tile_count_;
     if (first == end) return 0;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, moved_.id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, tiles_.id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, entries_.id());
-    const gl::Program& program = use_program(is_one, moves, target, combination);
+    const gl::Program& program = use_program(is_one, combination.has_own_motion, target, combination);
+    glUniform1f(program.at("tile_px"), float(is_sifted ? Sieve::kBlock_px : Tiles::kSide_px));
+    if (is_sifted) {
+        sieve_->draw(program, is_one);
+        return 1;
+    }
     glUniform1ui(program.at("first_tile"), first);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(end - first));
     return 1;
+}
+
+// Returns calls made. Both frames' buffers must be bound.
+uint64_t Combiner::combine_tiles(const gl::Target& target, const Combination& combination, bool sifts) {
+    fill_tiles(target, combination, !copies_rest());
+    if (tile_count_ == 0) return 0;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, moved_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, tiles_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, entries_.id());
+    bool is_sifted = sifts && sieve_;
+    if (is_sifted) {
+        sieve_->sift(target.width_px(), target.height_px(), one_count_, tile_count_);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, sieve_->blocks());
+    }
+    uint64_t calls = is_sifted ? 1 : 0;
+    for (bool is_one : {true, false}) calls += draw_tiles(is_one, target, combination, is_sifted);
+    return calls;
 }
 
 void Combiner::prepare(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older) {
@@ -172,7 +207,7 @@ void Combiner::prepare(const gl::Target& target, const TurnBuffer& newer, const 
         combine(target, newer, older, combination);
         return;
     }
-    // One thing in the first square, two in the second.
+    // One thing in the first square, two in the second; whatever the buffers hold, each way draws something without the sieve.
     combination.moved.resize(2);
     combination.tiles.columns = 2, combination.tiles.rows = 1;
     combination.tiles.entries.assign(2 * Tiles::kMost, 0);
@@ -180,7 +215,7 @@ void Combiner::prepare(const gl::Target& target, const TurnBuffer& newer, const 
     combination.tiles.entries[Tiles::kMost + 1] = 2;
     for (bool moves : {true, false}) {
         combination.has_own_motion = moves;
-        combine(target, newer, older, combination);
+        for (bool sifts : {true, false}) combine(target, newer, older, combination, sifts);
     }
 }
 
@@ -200,12 +235,10 @@ const gl::Program& Combiner::use_program(bool is_one, bool moves, const gl::Targ
 }
 
 uint64_t Combiner::combine(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older,
-                           const Combination& combination) {
+                           const Combination& combination, bool sifts) {
     bool is_paper = options_.variant == Variant::fsi_paper;
-    // What is copied keeps its depth as it is.
-    bool copies = options_.remedies.copies_rest && options_.remedies.has_wide_depth;
     uint64_t calls = 1;
-    if (!is_paper && copies) target.copy_from(newer.framebuffer.id());
+    if (!is_paper && copies_rest()) target.copy_from(newer.framebuffer.id());
     target.bind();
     bind_buffers(newer, older, !is_paper);
     glDepthFunc(GL_ALWAYS);
@@ -217,8 +250,7 @@ uint64_t Combiner::combine(const gl::Target& target, const TurnBuffer& newer, co
         glDrawArrays(GL_TRIANGLES, 0, 3);
         combined_px_ = uint64_t(target.width_px()) * target.height_px();
     } else {
-        fill_tiles(target, combination, !copies);
-        for (bool is_one : {true, false}) calls += draw_tiles(is_one, combination.has_own_motion, target, combination);
+        calls += combine_tiles(target, combination, sifts);
     }
     glDepthFunc(GL_GREATER);
     return calls;

@@ -2,14 +2,16 @@
 //
 // Based on: D. Scherzer, M. Wimmer, Frame Sequential Interpolation for Discrete Level-of-Detail Rendering, 2008, 3.4.
 // Different in Variant::fsi: settings.h's Remedies; and only those squares of the picture are put together in which something
-// may be under way, all others are copied from the newer frame.
+// may be under way, and of them what draw_sieve.h leaves, all others are copied from the newer frame.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "runtime/discrete/director.h"
+#include "runtime/discrete/draw_sieve.h"
 #include "runtime/discrete/reprojection.h"
 #include "runtime/discrete/settings.h"
 #include "runtime/gl/objects.h"
@@ -57,23 +59,30 @@ class Combiner {
   public:
     // For buffers of so many samples a pixel.
     static Result<Combiner> make(const FrameOptions& options, uint32_t samples);
-    // Into the target, which is as large as the buffers and has as many samples. Returns calls made.
-    uint64_t combine(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older, const Combination& combination);
+    // Into the target, which is as large as the buffers and has as many samples. sifts: with the sieve, if there is one. Returns
+    // calls made.
+    uint64_t combine(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older, const Combination& combination,
+                     bool sifts = true);
     // Puts some pixels together by each way that there is, so that no later frame waits for a shader; the target's picture is
     // lost.
     void prepare(const gl::Target& target, const TurnBuffer& newer, const TurnBuffer& older);
-    // How many pixels the last one put together; it copied the others.
+    // Pixels of the squares of the last one; it copied the others.
     uint64_t combined_px() const { return combined_px_; }
+    // Pixels for which it put two frames together: no more than that. Waits until it has.
+    uint64_t searched_px() const;
 
   private:
     const gl::Program& use_program(bool is_one, bool moves, const gl::Target& target, const Combination& combination);
     Result<gl::Program> make_program(bool is_one, bool moves) const;
-    uint64_t draw_tiles(bool is_one, bool moves, const gl::Target& target, const Combination& combination);
+    uint64_t draw_tiles(bool is_one, const gl::Target& target, const Combination& combination, bool is_sifted);
     void fill_tiles(const gl::Target& target, const Combination& combination, bool takes_all);
+    uint64_t combine_tiles(const gl::Target& target, const Combination& combination, bool sifts);
+    bool copies_rest() const;
 
     FrameOptions options_;
     uint32_t samples_ = 1;
     gl::Program paper_, tiled_[2][2];  // [has one entry][has own motion]
+    std::optional<Sieve> sieve_;
     gl::StreamBuffer moved_, tiles_, entries_;
     gl::VertexArray nothing_;
     uint32_t one_count_ = 0, tile_count_ = 0;  // those with one entry come first

@@ -1,24 +1,28 @@
-// The shaders that put two frames together where something changes: draw_combination.cpp's, after kBuffers of
-// draw_turn_shaders.h.
+// The shaders that put two frames together where something changes: draw_combination.cpp's, after those of draw_turn_shaders.h.
 #pragma once
 
 namespace overlook::discrete::shaders {
 
-// One square of the picture, as a strip of four corners.
-inline constexpr char kTileVertex[] = R"(
-struct Tile {
-    uint column, row, first, count;   // first, count: of the entries
-};
+// What is under way, nearest first, and which of it in which square of the picture.
+inline constexpr char kUnderWay[] = R"(
 struct Moved {
     mat4 old_from_new, new_from_old;
     uint id, from, to;
     float phase;
     float near_z, far_z, pad0, pad1;
 };
-layout(std430, binding = 4) readonly buffer Moveds { Moved moveds[]; };  // nearest first
+struct Tile {
+    uint column, row, first, count;  // first, count: of the entries
+};
+layout(std430, binding = 4) readonly buffer Moveds { Moved moveds[]; };
 layout(std430, binding = 5) readonly buffer Tiles { Tile tiles[]; };
 layout(std430, binding = 6) readonly buffer Entries { uint entries[]; };
+)";
+
+// One square of the picture, as a strip of four corners; after kUnderWay.
+inline constexpr char kTileVertex[] = R"(
 uniform vec2 picture_px;
+uniform float tile_px;  // a square's side
 uniform uint first_tile;
 flat out uvec2 listed;
 #if IS_ONE
@@ -30,7 +34,7 @@ void main() {
     Tile tile = tiles[first_tile + uint(gl_InstanceID)];
     listed = uvec2(tile.first, tile.count);
     vec2 corner = vec2(tile.column + uint(gl_VertexID & 1), tile.row + uint(gl_VertexID >> 1));
-    vec2 at_px = min(corner * float(TILE_PX), picture_px);
+    vec2 at_px = min(corner * tile_px, picture_px);
     gl_Position = vec4(2.0 * at_px / picture_px - 1.0, 0.0, 1.0);
 #if IS_ONE
     Moved only = moveds[entries[tile.first]];
@@ -42,7 +46,7 @@ void main() {
 }
 )";
 
-// Both frames' buffers; Picture and Numbers: kinds of samplers, as in kBuffers.
+// Both frames' buffers; Picture and Numbers: kinds of samplers, as in kSamplers.
 inline constexpr char kTwoFrames[] = R"(
 layout(binding = 0) uniform Picture new_colour;
 layout(binding = 1) uniform Numbers new_ids;
@@ -53,7 +57,7 @@ layout(binding = 5) uniform Picture old_depth;
 )";
 
 // KEEPS_HIDDEN, SEARCHES, WEIGHS_BY_PHASE, HAS_LONG_RAMPS, HAS_WIDE_IDS, HAS_WIDE_DEPTH: the remedies. IS_ONE: each square has
-// one entry, which comes with it. MOVES: things have their own matrices; else all have the camera's.
+// one entry, which comes with it; else after kUnderWay. MOVES: things have their own matrices; else all have the camera's.
 inline constexpr char kCombinationInputs[] = R"(
 uniform mat4 camera_new_from_old;
 uniform float softness;
@@ -73,14 +77,6 @@ Way way_of(uint entry) {
 }
 #define entry_at(k) 0u
 #else
-struct Moved {
-    mat4 old_from_new, new_from_old;
-    uint id, from, to;
-    float phase;
-    float near_z, far_z, pad0, pad1;
-};
-layout(std430, binding = 4) readonly buffer Moveds { Moved moveds[]; };
-layout(std430, binding = 6) readonly buffer Entries { uint entries[]; };
 Way way_of(uint entry) {
     return Way(moveds[entry].id, moveds[entry].from, moveds[entry].to, moveds[entry].phase, moveds[entry].near_z,
                moveds[entry].far_z);

@@ -24,7 +24,7 @@ struct FrameCounts {
     uint64_t in_view_count = 0;   // of them
     uint64_t begun_count = 0;     // changes of level begun, turned or done at once
     uint64_t fading_count = 0;    // under way
-    uint64_t combined_px = 0;     // pixels for which two frames were put together; of variants that draw by turns
+    uint64_t combined_px = 0;     // pixels of squares in which two frames may differ; of variants that draw by turns
     uint64_t resident_bytes = 0;  // of buffers that this variant has beside the chain
     uint64_t state_bytes = 0;     // what instances keep in main memory
     double error_px = 0;          // the greatest bound of what is drawn, against the finest level
@@ -55,6 +55,9 @@ class FrameDrawer {
     void decide(const view::Camera& camera, double dt_s, double clip_s);
     // Draws and resolves; need not wait until it is drawn. Fails as Turns::draw.
     Result<FrameCounts> draw(const gl::Target& target, const DrawOptions& look);
+    // Pixels for which the last draw() into a target of so many samples a pixel put two frames together: combined_px or fewer.
+    // Waits until it has.
+    uint64_t searched_px(uint32_t samples) const { return turns_ ? turns_->searched_px(samples) : 0; }
     // Draws into the target, whose picture is lost, what changes of level are drawn by, so that no frame waits for shaders when
     // the first one begins. Fails as Turns::draw.
     Result<void> prepare(const view::Camera& camera, const gl::Target& target);

@@ -4,8 +4,8 @@
 
 namespace overlook::discrete::shaders {
 
-// SAMPLES: of the buffers and the picture, a pixel.
-inline constexpr char kBuffers[] = R"(
+// How buffers are read. SAMPLES: of the buffers and the picture, a pixel.
+inline constexpr char kSamplers[] = R"(
 #if SAMPLES > 1
 #define Picture sampler2DMS
 #define Numbers usampler2DMS
@@ -18,9 +18,17 @@ inline constexpr char kBuffers[] = R"(
 #define fetch_sample(from, at, index) texelFetch(from, at, 0)
 #define gl_SampleID 0
 #endif
-uniform ivec2 size_px;
+)";
+
+// What puts two frames together, between kSamplers and kPlaces.
+inline constexpr char kCombined[] = R"(
 uniform mat4 camera_old_from_new;
 layout(location = 0) out vec4 colour;
+)";
+
+// Places of pixels and in clip coordinates, for any stage; z: what the depth buffer holds.
+inline constexpr char kPlaces[] = R"(
+uniform ivec2 size_px;
 bool is_inside(ivec2 at) {
     return all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size_px));
 }

@@ -94,6 +94,11 @@ uint64_t Turns::bytes(uint32_t samples) const {
     return 2 * sample_bytes * samples * found->second.width_px * found->second.height_px;
 }
 
+uint64_t Turns::searched_px(uint32_t samples) const {
+    auto found = pairs_.find(samples);
+    return found == pairs_.end() ? 0 : found->second.combiner.searched_px();
+}
+
 uint64_t Turns::fill(const Pair& pair, TurnBuffer& buffer, const DrawOptions& look, uint64_t frame,
                      std::span<const TurnPart> parts, const DrawList* TurnPart::*list, uint64_t& uploaded_bytes) {
     gl::bind_for_drawing(buffer.framebuffer.id(), pair.width_px, pair.height_px);

@@ -38,6 +38,8 @@ class Turns {
     Result<void> prepare(const gl::Target& target);
     // Of the last draw().
     uint64_t combined_px() const { return combined_px_; }
+    // Pixels for which it put two frames together, of a target of so many samples a pixel; waits until it has.
+    uint64_t searched_px(uint32_t samples) const;
     uint64_t bytes(uint32_t samples) const;  // of the buffers for targets of so many samples a pixel
 
   private:

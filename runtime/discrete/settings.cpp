@@ -83,6 +83,7 @@ const std::vector<KnownSetting>& known_settings() {
         OVERLOOK_FLAG(Whose::fsi, "search", remedies.searches),
         OVERLOOK_FLAG(Whose::fsi, "suit-grain", remedies.suits_grain),
         OVERLOOK_FLAG(Whose::fsi, "copy-rest", remedies.copies_rest),
+        OVERLOOK_FLAG(Whose::fsi, "sieve", remedies.sieves),
         OVERLOOK_FLAG(Whose::fsi, "know-cuts", remedies.knows_cuts),
         OVERLOOK_NUMBER(Whose::fsi, "softness", 0, 4, remedies.softness),
     };

@@ -64,6 +64,9 @@ struct Remedies {
     // Only squares of the picture in which something may be under way are put together of two frames; the others are the newer
     // one. With has_wide_depth only.
     bool copies_rest = true;
+    // Of those squares only blocks in which one of the two frames shows it (draw_sieve.h): the same picture for less work. With
+    // copies_rest, searches and has_wide_ids only.
+    bool sieves = true;
     // What was out of view, or what the eye came from elsewhere to (a cut, a teleport), has its level at once: there is nothing
     // that could pop, and no older picture of it.
     bool knows_cuts = true;

@@ -96,10 +96,15 @@ StreamBuffer::StreamBuffer() {
     buffer_ = Buffer(id);
 }
 
-void StreamBuffer::fill(std::span<const std::byte> bytes) {
-    if (bytes.size() > capacity_bytes_) capacity_bytes_ = std::max(bytes.size(), capacity_bytes_ + capacity_bytes_ / 2);
+void StreamBuffer::reserve(size_t bytes) {
+    if (bytes > capacity_bytes_) capacity_bytes_ = std::max(bytes, capacity_bytes_ + capacity_bytes_ / 2);
     if (capacity_bytes_ == 0) return;
     glNamedBufferData(buffer_.id(), GLsizeiptr(capacity_bytes_), nullptr, GL_STREAM_DRAW);
+}
+
+void StreamBuffer::fill(std::span<const std::byte> bytes) {
+    reserve(bytes.size());
+    if (capacity_bytes_ == 0) return;
     glNamedBufferSubData(buffer_.id(), 0, GLsizeiptr(bytes.size()), bytes.data());
 }
 

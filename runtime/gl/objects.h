@@ -62,6 +62,8 @@ class StreamBuffer {
   public:
     StreamBuffer();
     void fill(std::span<const std::byte> bytes);
+    // Fresh memory for so many bytes, that the graphics card fills.
+    void reserve(size_t bytes);
     GLuint id() const { return buffer_.id(); }
 
   private:

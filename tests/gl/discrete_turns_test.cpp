@@ -262,35 +262,6 @@ TEST(Turns, DivideABigThingUnseenOnTheWay) {
     }
 }
 
-// Where nothing is under way the newer frame is the picture: putting all squares together gives the same, depth and all, to the
-// last bit.
-TEST(Turns, CopyWhatRestsToTheLastBit) {
-    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
-    Chain chain = made::simple_chain();
-    std::vector<Placement> placements = {placed({-2.2, 0, 0}), placed({2.2, -3, 0}), placed({2.5, -2.2, 0.4})};
-    constexpr uint64_t kAll_px = 96 * 80;
-    for (uint32_t samples : {1u, 4u}) {
-        FrameOptions options = by_distance(Variant::fsi), everywhere = options;
-        set(everywhere, "copy-rest", 0);
-        Film film(chain, placements, options, samples), whole(chain, placements, everywhere, samples);
-        uint64_t changing = 0, resting = 0;
-        for (int frame = 0; frame < 40; ++frame) {
-            view::Camera camera = camera_from({0.02 * frame, -12.5 + 0.15 * frame, 0});
-            ImageRgb8 a = film.frame(camera), b = whole.frame(camera);
-            EXPECT_TRUE(a.pixels == b.pixels) << frame << " " << samples;
-            if (samples == 1) {
-                EXPECT_TRUE(film.target().read_depth() == whole.target().read_depth()) << frame;
-            }
-            EXPECT_EQ(whole.counts.combined_px, kAll_px);
-            EXPECT_EQ(film.counts.combined_px > 0, film.counts.fading_count > 0) << frame;
-            EXPECT_LT(film.counts.combined_px, kAll_px);
-            ++(film.counts.fading_count > 0 ? changing : resting);
-        }
-        EXPECT_GT(changing, 10u);
-        EXPECT_GT(resting, 5u);
-    }
-}
-
 TEST(Turns, BeginAnewAtAnotherSize) {
     OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
     Chain chain = made::simple_chain();

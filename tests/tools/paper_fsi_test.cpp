@@ -136,7 +136,7 @@ Flown made_flown() {
             point.p50_ms = 10.0 + double(way), point.triangles = way == kOwn ? 1010 : 1000;
             flown.points.push_back(point);
         }
-    flown.combining = {{"simple", "fsi:paper", 512, 1, 1, 1, 0.5, 1}, {"simple", "fsi", 512, 1, 3, 1, 0.5, 0.2}};
+    flown.combining = {{"simple", "fsi:paper", 512, 1, 1, 1, 0.5, 1, 1}, {"simple", "fsi", 512, 1, 3, 1, 0.5, 0.2, 0.1}};
     flown.drawbacks = {{"simple", {{1, "both <levels>", "triangles", {1.5, 1, 1}}}}};
     flown.pictures.push_back({7, "figure-7", "outlines", {2, 1, std::vector<uint8_t>(6)}});
     return flown;

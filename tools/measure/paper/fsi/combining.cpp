@@ -112,7 +112,7 @@ Result<std::vector<Combining>> time_combining(const World& scene, const Stand& s
     for (const ChainWorld& one : world->chains) stands.push_back({&*one.drawing, one.placements});
     std::vector<Combining> all;
     for (size_t way : {kPaper, kOwn}) {
-        Combining times{name, std::string(kWays[way].name), side_px, 0, 0, 0, 0, 0};
+        Combining times{name, std::string(kWays[way].name), side_px};
         discrete::FrameOptions options =
             discrete::defaults_of(way == kPaper ? discrete::Variant::fsi_paper : discrete::Variant::fsi);
         options.select.criterion = discrete::Criterion::distance, options.select.refine_share = 1;
@@ -129,7 +129,9 @@ Result<std::vector<Combining>> time_combining(const World& scene, const Stand& s
             Result<double> ms = pass_ms(**frames, *target);
             if (!ms) return tl::unexpected(ms.error());
             (frame == kChanging ? times.changing_ms : times.rest_ms) = *ms;
-            times.changing_share = double(drawn->combined_px) / (double(side_px) * side_px);
+            double all_px = double(side_px) * side_px;
+            times.changing_share = double(drawn->combined_px) / all_px;
+            times.searched_share = double((*frames)->searched_px(target->samples())) / all_px;
         }
         time_copies(*copies, *target, times);
         all.push_back(std::move(times));
@@ -138,10 +140,10 @@ Result<std::vector<Combining>> time_combining(const World& scene, const Stand& s
 }
 
 std::string combining_csv(const std::vector<Combining>& all) {
-    std::string csv = "scene,method,side_px,rest_ms,changing_ms,copy_pass_ms,copy_memory_ms,changing_share\n";
+    std::string csv = "scene,method,side_px,rest_ms,changing_ms,copy_pass_ms,copy_memory_ms,changing_share,searched_share\n";
     for (const Combining& one : all)
-        csv += fmt::format("{},{},{},{},{},{},{},{}\n", one.scene, one.method, one.side_px, one.rest_ms, one.changing_ms,
-                           one.pass_ms, one.copy_ms, one.changing_share);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", one.scene, one.method, one.side_px, one.rest_ms, one.changing_ms,
+                           one.pass_ms, one.copy_ms, one.changing_share, one.searched_share);
     return csv;
 }
 

@@ -15,7 +15,9 @@ struct Combining {
     // Medians: of the pass while nothing changes and while all of the arc does; of a pass that reads both buffers, colour, ids
     // and depth, at its own pixel and writes colour and depth; of a copy of the buffers' memory (glCopyImageSubData).
     double rest_ms = 0, changing_ms = 0, pass_ms = 0, copy_ms = 0;
-    double changing_share = 0;  // of the pixels, for which two frames are put together while all of the arc changes; exact
+    // Of the pixels while all of the arc changes, exact: of squares in which something may be under way, and those for which two
+    // frames are put together.
+    double changing_share = 0, searched_share = 0;
 };
 
 // fsi:paper and fsi over the arc of a film, one sample a pixel. Fails with Exit::impossible (targets).

@@ -92,10 +92,10 @@ std::vector<Placement> crowd(const discrete::Chain& chain, double apart) {
 Result<Picture> figure_3(const Subject& subject) {
     auto easel = Easel::make(printed_chain(subject), kCell_px + 96, kCell_px);
     if (!easel) return tl::unexpected(easel.error());
-    std::vector<Placement> all = crowd((*easel)->chain(), 2.6);
+    std::vector<Placement> all = crowd((*easel)->chain(), 3.2);
     view::Camera camera = (*easel)->camera_at(all.front(), 0.35);
-    camera.position_m.z += 1.2 * (*easel)->chain().radius_m;
-    camera.pitch_deg = -9;
+    camera.position_m.z += 4 * (*easel)->chain().radius_m;
+    camera.pitch_deg = -20;
     // The second row's middle three: nearer than all others but the first.
     std::vector<double> distances;
     for (const Placement& one : all) distances.push_back(away_m(**easel, camera, one));

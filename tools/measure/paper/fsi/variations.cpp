@@ -9,7 +9,7 @@
 namespace overlook::measure::paper::fsi {
 namespace {
 
-constexpr std::array<Variation, 19> kVariations = {{
+constexpr std::array<Variation, 20> kVariations = {{
     {"switch", kSwitch, "", "At once.", false},
     {"fsi:paper", kPaper, "", "As printed.", false},
     {"fsi:paper@reproject=0", kPaper, "@reproject=0", "The older buffer is looked up at the same pixel.", false},
@@ -27,6 +27,8 @@ constexpr std::array<Variation, 19> kVariations = {{
     {"fsi@suit-grain=0", kOwn, "@suit-grain=0", "The visibility's grain is as it was baked, however far the thing.", true},
     {"fsi@softness=0", kOwn, "@softness=0", "A place appears at once, not over as long as the ramp.", true},
     {"fsi@copy-rest=0", kOwn, "@copy-rest=0", "Two frames are put together in all of the picture, which costs time alone.", true},
+    {"fsi@sieve=0", kOwn, "@sieve=0", "All of the squares in which something may change is searched, which costs time alone.",
+     true},
     {"fsi@know-cuts=0", kOwn, "@know-cuts=0", "After a cut levels take their time, which no film here has: holes of S04.", true},
     {"fsi@ease-ends=0", kOwn, "@ease-ends=0", "The first frame of a change and the last differ as much as those between.", true},
     {"fsi@long-ramps=0", kOwn, "@long-ramps=0", "One level's ramp after the other's, as in the paper.", true},
