@@ -15,8 +15,14 @@ namespace overlook::wang_ldi {
 constexpr container::Tag kTilesTag = container::tag("WTIL");
 constexpr container::Tag kPlantingTag = container::tag("WPLT");
 // What a reader of ground knows: its own sections, and those of the images of its tiles.
-inline constexpr container::Tag kKnownTags[] = {
-    kTilesTag, kPlantingTag, container::tag("WLDI"), container::tag("WLDS"), container::tag("WLDT"), container::tag("PROV")};
+inline constexpr container::Tag kKnownTags[] = {kTilesTag,
+                                                kPlantingTag,
+                                                container::tag("WLDI"),
+                                                container::tag("WLDS"),
+                                                container::tag("WLDT"),
+                                                container::tag("WSCN"),
+                                                container::tag("WSCP"),
+                                                container::tag("PROV")};
 
 // WTIL: counts of colours of horizontal edges, vertical edges and corners, and of tiles (4 u16); a density for each corner colour
 // (f32); low and high of each horizontal and each vertical colour (2 u8); north, east, south, west of each tile (4 u8).
