@@ -112,7 +112,12 @@ bool follow(mat4 old_from_new, mat4 new_from_old, vec2 at_px, float z, uint id, 
         if (max(off.x, off.y) > 0.75) continue;
         hit.z = z;
         hit.at_px = moved(old_from_new, clip, z).xy;
-        return true;
+        // There it may be past its outline, which else would reach beyond itself.
+        ivec2 pixel;
+        int index;
+        nearest_sample(hit.at_px, pixel, index);
+        bool is_past = id != ~0u && is_inside(pixel) && stored_id(fetch_sample(old_ids, pixel, index).x) != id;
+        return !is_past;
     }
     return false;
 }
