@@ -229,8 +229,8 @@ TEST(BudgetKeeper, ConvergesAtOnceAndThenChangesNothing) {
     }
 }
 
-// 20 frames after it changed, of several loads. What is foretold is within 5 %; of what is drawn, while levels change that are four
-// times as many triangles as the next, 10 %.
+// 20 frames after it changed, of several loads. What is foretold is within 5 %; of what is drawn, while levels change that are
+// four times as many triangles as the next, 10 %.
 TEST(BudgetKeeper, KeepsItOnTheWayPastACrowdWhateverTheStep) {
     std::vector<Placement> placements = crowd(24);
     double free = free_triangles(Variant::fsi, placements, passing(0));
@@ -363,6 +363,25 @@ TEST(BudgetKeeper, OfLevelsOneByOneEndsWhereItSaid) {
     alone.keeper.set_triangles(1);
     alone.frame(passing(0));
     EXPECT_EQ(alone.settled(), alone.foretold);
+}
+
+// Of a file made by hand, in which a coarser level may have more triangles than a finer one.
+TEST(BudgetKeeper, KeepsABudgetOfLevelsThatAreNotCheaper) {
+    ChainFacts facts;
+    facts.radius_m = 1;
+    for (uint64_t triangles : {100, 400, 50, 80, 60})
+        facts.levels.push_back({0.01 * double(facts.levels.size()), 0, triangles, {}});
+    for (double budget : {12000.0, 9000.0, 5000.0}) {
+        Director director(facts, crowd(12), defaults_of(Variant::hard));
+        BudgetKeeper keeper;
+        keeper.set_triangles(budget);
+        for (int frame = 0; frame < 40; ++frame) {
+            Demand demand = director.demand(passing(frame), kStep_s);
+            director.coarsen(keeper.times(std::span(&demand, 1)));
+            director.decide(passing(frame), kStep_s);
+            EXPECT_LE(double(director.frame().settled_triangle_count), std::max(budget, demand.triangles(4096))) << frame;
+        }
+    }
 }
 
 // Several directors of one picture share the budget at one coarseness.
