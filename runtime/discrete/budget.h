@@ -1,38 +1,31 @@
-// Which error to ask of chains of levels so that a frame keeps within a budget of triangles.
+// How much coarser than asked the levels of chains must be so that a frame keeps within a budget of triangles.
 //
 // Based on: T. Funkhouser, C. Sequin, Adaptive Display Algorithm for Interactive Frame Rates, 1993 (what a choice will cost is
-// known before it is drawn). Different here: one error for all, the least that fits, found by halving, from the levels in use,
-// whose hysteresis makes cost answer an error late.
+// known before it is drawn). Different here: all are coarser alike, by the least that fits, found by halving; from the levels in
+// use, whose hysteresis makes cost answer late. A controller that goes by what frames have cost (view::ErrorController) would go
+// on while nothing answers, and then too far.
 #pragma once
 
 #include <span>
 
-#include "runtime/discrete/director.h"
+#include "runtime/discrete/demand.h"
 
 namespace overlook::discrete {
 
 class BudgetKeeper {
   public:
-    // least_error_px > 0: never asks for less.
-    BudgetKeeper(double triangles, double least_error_px)
-        : triangles_(triangles), least_px_(least_error_px), error_px_(least_error_px) {}
+    // Of a frame, from now on; 0: as many as what is asked takes.
+    void set_triangles(double triangles);
+    double triangles() const { return triangles_; }
 
-    // From now on.
-    void set_triangles(double triangles) { triangles_ = triangles; }
-    // What to ask of the next frame, from this camera. Directors: of one picture, all asked alike but for their error. Rests
-    // while that keeps between 95 and 100 % of the budget; else comes to 97.5 % of it. O(instances), some 20 times if it does not
-    // rest.
-    double error_px(std::span<const Director* const> directors, const view::Camera& camera);
-    // What the frame asked for came to: FrameList::settled_triangle_count of all directors.
-    void frame_done(double settled_triangles);
+    // How many times as coarse as asked levels are to be in the next frame, 1 to 4096. demands: of all directors of the picture.
+    // Rests while that keeps between 95 and 100 % of the budget, or under it at what was asked; else comes to the least that
+    // takes 97.5 % of it at most, where even the fewest triangles are more, those. What is taken beside, while levels change, is
+    // not in it. 22 x Demand::triangles at most.
+    double times(std::span<const Demand> demands);
 
   private:
-    double triangles_, least_px_, error_px_;
-    double predicted_ = 0, correction_ = 1;  // of the last frame; how many times more frames take than is predicted of them
+    double triangles_ = 0, times_ = 1;
 };
-
-// Triangles that a frame takes from there when every instance has the level that it wants for this error, as from the one in use;
-// what the camera will see a moment later, and what the picture's sides cut off, left out of account.
-double predicted_triangles(const Director& director, const view::Camera& camera, double error_px);
 
 }  // namespace overlook::discrete

@@ -11,8 +11,7 @@ namespace overlook::discrete {
 namespace {
 
 constexpr uint8_t kMostGrainDoublings = 20;
-constexpr double kCutShare = 0.25;    // of a thing's distance: an eye that went farther in a frame was put elsewhere
-constexpr uint64_t kLeastCut = 1024;  // triangles of a level from which on only those in the picture are drawn
+constexpr double kCutShare = 0.25;  // of a thing's distance: an eye that went farther in a frame was put elsewhere
 
 }  // namespace
 
@@ -48,16 +47,43 @@ void Director::change(const FrameOptions& options) {
 }
 
 // The eye's way since the frame before as the thing sees it, which may have moved itself.
-glm::dvec3 Director::way_past(uint32_t instance) const {
-    if (placed_before_.empty()) return way_m_;
-    return way_m_ - (placements_[instance].at(facts_.middle_m) - placed_before_[instance].at(facts_.middle_m));
+glm::dvec3 Director::way_past(uint32_t instance, const glm::dvec3& way_m) const {
+    if (placed_before_.empty()) return way_m;
+    return way_m - (placements_[instance].at(facts_.middle_m) - placed_before_[instance].at(facts_.middle_m));
 }
 
 // From so far apart it is another picture of the thing, and the level in use may be far too coarse.
-bool Director::has_jumped(uint32_t instance) const {
+bool Director::begins_anew(uint32_t instance, const glm::dvec3& eye_m, const glm::dvec3& way_m) const {
+    if (!states_[instance].is_known) return true;
+    if (options_.variant != Variant::fsi || !options_.remedies.knows_cuts) return false;
     const Placement& placement = placements_[instance];
-    double distance_m = glm::length(placement.at(facts_.middle_m) - eye_m_);
-    return glm::length(way_past(instance)) > kCutShare * std::max(distance_m, facts_.radius_m * placement.scale);
+    double distance_m = glm::length(placement.at(facts_.middle_m) - eye_m);
+    return glm::length(way_past(instance, way_m)) > kCutShare * std::max(distance_m, facts_.radius_m * placement.scale);
+}
+
+glm::dvec3 Director::way_to(const view::Camera& camera) const {
+    return frame_count_ > 0 ? camera.position_m - eye_m_ : glm::dvec3(0);
+}
+
+// A change that begins with the next frame ends a frame later.
+view::Camera Director::camera_later(Foresight& foresight, const view::Camera& camera, double dt_s) const {
+    return foresight.ahead(camera, dt_s, options_.fade_s, options_.fade_s + 2 * dt_s);
+}
+
+Demand Director::demand(const view::Camera& camera, double dt_s) const {
+    Foresight foresight = foresight_;
+    Selector ahead(facts_, options_.select, camera_later(foresight, camera, dt_s));
+    bool foresees = fades(options_.variant) && options_.foresees;
+    Selector selector(facts_, options_.select, camera, foresees ? &ahead : nullptr);
+    glm::dvec3 way_m = way_to(camera);
+    Demand demand(facts_, options_.select);
+    for (uint32_t instance = 0; instance < states_.size(); ++instance) {
+        if (!selector.is_in_view(placements_[instance])) continue;
+        std::optional<uint32_t> in_use;
+        if (!begins_anew(instance, camera.position_m, way_m)) in_use = states_[instance].transition.to;
+        demand.add(selector, placements_[instance], in_use, camera);
+    }
+    return demand;
 }
 
 void Director::suit_grain(State& state, const Placement& placement, const Selector& selector) const {
@@ -73,7 +99,7 @@ void Director::suit_grain(State& state, const Placement& placement, const Select
 bool Director::advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
                        bool is_in_view) {
     Transition before = state.transition;
-    bool was_in_view = std::exchange(state.was_in_view, is_in_view);
+    bool was_in_view = std::exchange(state.was_in_view, is_in_view), is_anew = begins_anew(instance, eye_m_, way_m_);
     if (!state.is_known) {
         uint32_t level = selector.wanted(placement);
         state.transition = {level, level, 0};
@@ -81,9 +107,8 @@ bool Director::advance(uint32_t instance, State& state, const Placement& placeme
         return false;
     }
     bool knows_cuts = options_.variant == Variant::fsi && options_.remedies.knows_cuts;
-    bool has_cut = knows_cuts && has_jumped(instance);
-    uint32_t wanted = has_cut ? selector.wanted(placement) : selector.wanted(placement, before.to);
-    if (!fades(options_.variant) || !is_in_view || has_cut || (knows_cuts && !was_in_view)) {
+    uint32_t wanted = is_anew ? selector.wanted(placement) : selector.wanted(placement, before.to);
+    if (!fades(options_.variant) || !is_in_view || is_anew || (knows_cuts && !was_in_view)) {
         state.transition = {wanted, wanted, 0};
         partly_.erase(instance);
         return wanted != before.to;
@@ -103,7 +128,7 @@ uint32_t Director::drawn_level(const State& state) const {
 
 bool Director::is_partly_seen(uint32_t instance, uint32_t level) const {
     const LevelFacts& facts = facts_.levels[level];
-    return states_[instance].is_cut && facts.triangle_count >= kLeastCut && !facts.bunches.empty();
+    return states_[instance].is_cut && is_drawn_in_part(facts);
 }
 
 // Of something large that the picture's sides cut, only what is seen.
@@ -207,14 +232,12 @@ void Director::decide(const view::Camera& camera, double dt_s) {
 }
 
 void Director::decide(const view::Camera& camera, double dt_s, int64_t& balance) {
-    // A change that begins with the next frame ends a frame later.
-    double horizon_s = options_.fade_s + 2 * dt_s;
-    view::Camera later = foresight_.ahead(camera, dt_s, options_.fade_s, horizon_s);
-    Selector ahead(facts_, options_.select, later);
+    SelectSettings select = coarser(options_.select, times_);
+    Selector ahead(facts_, select, camera_later(foresight_, camera, dt_s));
     bool foresees = fades(options_.variant) && options_.foresees;
-    Selector selector(facts_, options_.select, camera, foresees ? &ahead : nullptr);
+    Selector selector(facts_, select, camera, foresees ? &ahead : nullptr);
     last_triangle_count_ = frame_.triangle_count;
-    way_m_ = frame_count_ > 0 ? camera.position_m - eye_m_ : glm::dvec3(0);
+    way_m_ = way_to(camera);
     eye_m_ = camera.position_m, sides_ = view::sides_of(camera);
     frame_ = {};
     ++frame_count_;

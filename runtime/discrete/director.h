@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/discrete/demand.h"
 #include "runtime/discrete/foresight.h"
 #include "runtime/discrete/select.h"
 #include "runtime/discrete/settings.h"
@@ -81,6 +82,11 @@ class Director {
     int64_t balance() const;
     // Keeps levels and transitions; if the variant does not fade they end.
     void change(const FrameOptions& options);
+    // From the next frame on levels do that are so many times as coarse as the options ask (discrete::coarser). times > 0.
+    void coarsen(double times) { times_ = times; }
+    // What such a frame would take, whatever coarsen() says; asked before decide() of the same camera and dt_s. O(instances in
+    // view x levels).
+    Demand demand(const view::Camera& camera, double dt_s) const;
 
     const FrameList& frame() const { return frame_; }
     const FrameOptions& options() const { return options_; }
@@ -108,8 +114,11 @@ class Director {
     };
     bool advance(uint32_t instance, State& state, const Placement& placement, const Selector& selector, double dt_s,
                  bool is_in_view);
-    glm::dvec3 way_past(uint32_t instance) const;
-    bool has_jumped(uint32_t instance) const;
+    view::Camera camera_later(Foresight& foresight, const view::Camera& camera, double dt_s) const;
+    glm::dvec3 way_to(const view::Camera& camera) const;
+    glm::dvec3 way_past(uint32_t instance, const glm::dvec3& way_m) const;
+    // Whether its level is to be chosen as if it had none: never looked at, or the eye came from elsewhere.
+    bool begins_anew(uint32_t instance, const glm::dvec3& eye_m, const glm::dvec3& way_m) const;
     void suit_grain(State& state, const Placement& placement, const Selector& selector) const;
     bool is_partly_seen(uint32_t instance, uint32_t level) const;
     void add(Item item, std::vector<Item>& to);
@@ -141,6 +150,7 @@ class Director {
     uint64_t last_triangle_count_ = 0;  // of the frame before
     glm::dvec3 eye_m_{0}, way_m_{0};    // of the camera, and where it came from the frame before
     int64_t balance_ = 0;               // of the picture, while a frame is decided
+    double times_ = 1;                  // as coarsen()
 };
 
 }  // namespace overlook::discrete

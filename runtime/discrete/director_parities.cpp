@@ -45,7 +45,7 @@ bool Director::divide(uint32_t instance) {
     const Transition& transition = states_[instance].transition;
     const LevelFacts &fine = facts_.levels[finer(transition)], &coarse = facts_.levels[coarser(transition)];
     std::optional<Split> split =
-        split_of(fine.bunches, coarse.bunches, placement, facts_.middle_m, facts_.radius_m, eye_m_, way_past(instance), sides_);
+        split_of(fine.bunches, coarse.bunches, placement, facts_.middle_m, facts_.radius_m, eye_m_, way_past(instance, way_m_), sides_);
     if (!split) return false;
     glm::dvec3 normal = turn_to_eye(*split, placement, eye_m_);
     auto count = [&](const LevelFacts& level, bool is_along) {

@@ -53,6 +53,14 @@ Result<void> FrameDrawer::change(const FrameOptions& options) {
     return draws_alike ? Result<void>() : make_turns();
 }
 
+void FrameDrawer::keep_budget(const view::Camera& camera, double dt_s) {
+    std::vector<Demand> demands;
+    if (budget_.triangles() > 0)
+        for (const Group& group : groups_) demands.push_back(group.director.demand(camera, dt_s));
+    counts_.coarser_times = budget_.times(demands);
+    for (Group& group : groups_) group.director.coarsen(counts_.coarser_times);
+}
+
 void FrameDrawer::decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s, int64_t& balance) {
     Director& director = group.director;
     director.decide(camera, dt_s, balance);
@@ -81,6 +89,7 @@ Combination FrameDrawer::combination_for(const view::Camera& camera) const {
 
 void FrameDrawer::decide(const view::Camera& camera, double dt_s, double clip_s) {
     counts_ = {};
+    keep_budget(camera, dt_s);
     int64_t balance = 0;
     for (const Group& group : groups_) balance += group.director.balance();
     for (Group& group : groups_) decide_group(group, camera, dt_s, clip_s, balance);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/discrete/budget.h"
 #include "runtime/discrete/director.h"
 #include "runtime/discrete/draw.h"
 #include "runtime/discrete/draw_turns.h"
@@ -17,7 +18,7 @@ namespace overlook::discrete {
 // What one frame took: exact, and the same on every run.
 struct FrameCounts {
     uint64_t triangle_count = 0;          // submitted for this frame
-    uint64_t settled_triangle_count = 0;  // that a frame will take when the changes under way are over: what budgets go by
+    uint64_t settled_triangle_count = 0;  // that a frame will take when the changes under way are over
     uint64_t draw_call_count = 0;
     uint64_t uploaded_bytes = 0;
     uint64_t tested_count = 0;    // instances looked at
@@ -28,6 +29,7 @@ struct FrameCounts {
     uint64_t resident_bytes = 0;  // of buffers that this variant has beside the chain
     uint64_t state_bytes = 0;     // what instances keep in main memory
     double error_px = 0;          // the greatest bound of what is drawn, against the finest level
+    double coarser_times = 1;     // as levels are than is asked, so that a budget is kept
 };
 
 // A chain, and where it stands.
@@ -63,6 +65,9 @@ class FrameDrawer {
     Result<void> prepare(const view::Camera& camera, const gl::Target& target);
     // From the next frame on; levels and changes under way stay as they are. Fails as make().
     Result<void> change(const FrameOptions& options);
+    // Triangles of a frame from the next one on, when changes under way are over (BudgetKeeper); 0: as many as what is asked
+    // takes.
+    void set_budget(double triangles) { budget_.set_triangles(triangles); }
 
     const Director& director(size_t chain = 0) const { return groups_[chain].director; }
     const FrameCounts& counts() const { return counts_; }  // of the frame decided last, before it is drawn
@@ -79,11 +84,13 @@ class FrameDrawer {
     };
     FrameDrawer(std::span<const Stand> stands, const FrameOptions& options);
     Result<void> make_turns();
+    void keep_budget(const view::Camera& camera, double dt_s);
     // balance: of all groups (Director::decide).
     void decide_group(Group& group, const view::Camera& camera, double dt_s, double clip_s, int64_t& balance);
     Combination combination_for(const view::Camera& camera) const;
 
     FrameOptions options_;
+    BudgetKeeper budget_;
     std::vector<Group> groups_;
     std::optional<Turns> turns_;
     Combination combination_;

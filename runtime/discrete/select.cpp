@@ -59,6 +59,38 @@ double near_plane_m(double radius_m, std::span<const Placement> placements) {
     return std::min(kMost_m, kShare * least_m);
 }
 
+namespace {
+
+// The coarsest level whose strains allow it, now(level) and ahead(level); with hysteresis where one is in use.
+template <class Now, class Ahead>
+uint32_t wanted_by(const SelectSettings& settings, uint32_t level_count, std::optional<uint32_t> in_use, bool knows_ahead,
+                   const Now& now, const Ahead& ahead) {
+    auto coarsest = [&](uint32_t least, double most_now, double most_ahead) {
+        uint32_t level = level_count - 1;
+        while (level > least && !(now(level) <= most_now)) --level;
+        while (knows_ahead && level > least && !(ahead(level) <= most_ahead)) --level;
+        return level;
+    };
+    double refine = settings.refine_share, coarsen = refine * settings.coarsen_share;
+    bool is_too_coarse = in_use && (now(*in_use) > refine || (knows_ahead && ahead(*in_use) > refine));
+    if (!in_use || is_too_coarse) return coarsest(0, refine, refine);
+    return coarsest(*in_use, knows_ahead ? refine : coarsen, coarsen);
+}
+
+}  // namespace
+
+SelectSettings coarser(SelectSettings settings, double times) {
+    settings.error_px *= times, settings.size_px *= times, settings.distance_m /= times;
+    return settings;
+}
+
+uint32_t wanted_level(const SelectSettings& settings, std::span<const double> now, std::span<const double> ahead,
+                      std::optional<uint32_t> in_use, double times) {
+    return wanted_by(
+        settings, uint32_t(now.size()), in_use, !ahead.empty(), [&](uint32_t level) { return now[level] / times; },
+        [&](uint32_t level) { return ahead[level] / times; });
+}
+
 Selector::Selector(const ChainFacts& facts, const SelectSettings& settings, const view::Camera& camera, const Selector* ahead)
     : facts_(facts),
       ahead_(ahead),
@@ -129,27 +161,25 @@ double Selector::strain(const Sight& sight, uint32_t level) const {
     return bound_(sight.place, sight.radius_m, error_m) / sight.allowed_px;
 }
 
-uint32_t Selector::coarsest(const Placement& placement, uint32_t least, double most_now, double most_ahead) const {
-    uint32_t level = uint32_t(facts_.levels.size()) - 1;
-    if (level <= least) return least;
-    Sight now = sight_of(placement);
-    while (level > least && !(strain(now, level) <= most_now)) --level;
-    if (level <= least || ahead_ == nullptr) return level;
-    Sight then = ahead_->sight_of(placement);
-    while (level > least && !(ahead_->strain(then, level) <= most_ahead)) --level;
-    return level;
+uint32_t Selector::wanted_of(const Placement& placement, std::optional<uint32_t> in_use) const {
+    std::optional<Sight> here, there;
+    auto now = [&](uint32_t level) {
+        if (!here) here = sight_of(placement);
+        return strain(*here, level);
+    };
+    auto ahead = [&](uint32_t level) {
+        if (!there) there = ahead_->sight_of(placement);
+        return ahead_->strain(*there, level);
+    };
+    return wanted_by(settings_, uint32_t(facts_.levels.size()), in_use, knows_ahead(), now, ahead);
 }
 
-uint32_t Selector::wanted(const Placement& placement) const {
-    return coarsest(placement, 0, settings_.refine_share, settings_.refine_share);
-}
-
-uint32_t Selector::wanted(const Placement& placement, uint32_t level) const {
-    bool is_too_coarse = strain(placement, level) > settings_.refine_share ||
-                         (ahead_ != nullptr && ahead_->strain(placement, level) > settings_.refine_share);
-    if (is_too_coarse) return wanted(placement);
-    double coarsen = settings_.refine_share * settings_.coarsen_share;
-    return coarsest(placement, level, ahead_ != nullptr ? settings_.refine_share : coarsen, coarsen);
+void Selector::note_strains(const Placement& placement, std::vector<double>& now, std::vector<double>& ahead) const {
+    Sight here = sight_of(placement);
+    for (uint32_t level = 0; level < facts_.levels.size(); ++level) now.push_back(strain(here, level));
+    if (!knows_ahead()) return;
+    Sight there = ahead_->sight_of(placement);
+    for (uint32_t level = 0; level < facts_.levels.size(); ++level) ahead.push_back(ahead_->strain(there, level));
 }
 
 }  // namespace overlook::discrete

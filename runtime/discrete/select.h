@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "formats/discrete.h"
@@ -59,6 +61,15 @@ std::vector<Placement> placements_of(std::span<const scene::Instance> instances,
 // costs no precision. placements: at least one.
 double near_plane_m(double radius_m, std::span<const Placement> placements);
 
+// By these, levels do that are so many times as coarse: the error in pixels and the size are that many times as great, the
+// distance that many times as small, so that all strains are divided by it. times > 0.
+SelectSettings coarser(SelectSettings settings, double times);
+
+// The level that an instance wants whose levels have these strains, divided by `times`: as Selector::wanted. now: one a level.
+// ahead: as many, or none where nothing is known of what is ahead.
+uint32_t wanted_level(const SelectSettings& settings, std::span<const double> now, std::span<const double> ahead,
+                      std::optional<uint32_t> in_use, double times);
+
 // Strains of levels, and who is in the frame, of one camera.
 class Selector {
   public:
@@ -74,9 +85,12 @@ class Selector {
     double strain(const Placement& placement, uint32_t level) const { return strain(sight_of(placement), level); }
     // The level that an instance wants which has `level`: the coarsest whose strain, now and ahead, allows it; with hysteresis,
     // which is ahead where that is known.
-    uint32_t wanted(const Placement& placement, uint32_t level) const;
+    uint32_t wanted(const Placement& placement, uint32_t level) const { return wanted_of(placement, level); }
     // The same without a level in use: the coarsest whose strain is at most refine_share.
-    uint32_t wanted(const Placement& placement) const;
+    uint32_t wanted(const Placement& placement) const { return wanted_of(placement, std::nullopt); }
+    // The strains of all its levels one after the other, now and, where that is known, ahead; each appended.
+    void note_strains(const Placement& placement, std::vector<double>& now, std::vector<double>& ahead) const;
+    bool knows_ahead() const { return ahead_ != nullptr; }
     // The displacement of what the level draws, in pixels, against level 0: a bound. 0 of level 0.
     double error_px(const Placement& placement, uint32_t level) const;
     // Metres at its middle that are a pixel.
@@ -92,8 +106,7 @@ class Selector {
     };
     Sight sight_of(const Placement& placement) const;
     double strain(const Sight& sight, uint32_t level) const;
-    // The coarsest of levels over `least` whose strains are at most so much; `least` if none is.
-    uint32_t coarsest(const Placement& placement, uint32_t least, double most_now, double most_ahead) const;
+    uint32_t wanted_of(const Placement& placement, std::optional<uint32_t> in_use) const;
 
     const ChainFacts& facts_;
     const Selector* ahead_;

@@ -51,8 +51,9 @@ struct FrameStyle {
     bool shows_sources = false;  // of lod-sprite: what is sprite and what is not; of wang-ldi: levels and directions
     terrain::DrawOptions look;   // lod-sprite: of the shaded picture all but the wireframe; a mesh: the wireframe alone
     double dt_s = 1.0 / 60;      // since the frame before
-    uint64_t most_triangles =
-        0;  // of caveclod and caveclod:shared, which keep them by themselves: a frame's; 0 = as many as the error takes
+    // Of a frame, of methods that keep them by themselves (keeps_triangles); 0 = as many as the error takes. most_ms: of discrete.
+    uint64_t most_triangles = 0;
+    double most_ms = 0;
     bool is_pipelined = false;  // of wang-ldi, as FrameOptions
 };
 

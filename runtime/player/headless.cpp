@@ -30,14 +30,14 @@ Result<void> run_headless(Plan plan, const command::Common& common, Scene read_s
     settle(plan, scene);
     uint32_t frame_count = std::max(1u, plan.options.frames);
     std::vector<FrameRecord> records;
-    view::ErrorController controller(budget_of(plan.options, *plan.method, plan.options.error_px));
+    view::ErrorController controller(budget_of(plan.options, *plan.method, scene.subject().thing(), plan.options.error_px));
     command::Progress progress(common, "drawing");
     for (uint32_t frame = 0; frame < frame_count; ++frame) {
         view::Camera camera = view::camera_at(plan.flight, scene::frame_time_s(plan.flight, frame), plan.base);
         Result<FrameRecord> record =
             scene.draw(*target, camera,
                        {*plan.method, scene.subject().thing(), controller.error_px(), plan.options.morph, plan.options.rings,
-                        plan.draw, plan.flight.step_s, plan.options.triangles, plan.options.pipelined});
+                        plan.draw, plan.flight.step_s, plan.options.triangles, plan.options.frame_ms, plan.options.pipelined});
         if (!record) return tl::unexpected(record.error());
         if (record->stream) {
             for (const Error& fault : record->stream->faults) command::note(common, "player: " + fault.message);

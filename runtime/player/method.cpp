@@ -137,6 +137,14 @@ bool takes_budgets(Method method) {
     return has_wireframe(method);
 }
 
+bool keeps_triangles(Method method, Thing thing) {
+    return method == Method::caveclod || method == Method::caveclod_shared || keeps_ms(method, thing);
+}
+
+bool keeps_ms(Method, Thing thing) {
+    return thing == Thing::chain;
+}
+
 bool has_wireframe(Method method) {
     return method == Method::terrain || (method >= Method::caveclod && method < Method::wang_ldi);
 }

@@ -42,7 +42,10 @@ bool draws(Method method, Thing thing);
 std::string_view name_of(Thing thing);      // "terrain", "mesh", "chain of levels", "planting"
 std::string_view things_of(Method method);  // what it draws: "terrains", "meshes", "chains of levels"
 Method default_method(Thing thing);
-bool takes_budgets(Method method);  // of triangles or milliseconds, by the error asked for
+bool takes_budgets(Method method);  // of triangles or milliseconds
+// Which of them it keeps by itself (FrameStyle::most_triangles, most_ms); the others are kept by the error asked for.
+bool keeps_triangles(Method method, Thing thing);
+bool keeps_ms(Method method, Thing thing);
 bool has_wireframe(Method method);
 caveclod::Variant variant_of(Method method);           // of one of caveclod's
 discrete::Variant discrete_variant_of(Method method);  // of one of discrete's

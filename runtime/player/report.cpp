@@ -94,6 +94,7 @@ Json frame_json(const FrameRecord& frame) {
         json["changes_begun"] = frame.chain->begun_count;
         json["under_way"] = frame.chain->fading_count;
         json["draw_calls"] = frame.chain->draw_call_count;
+        json["settled_triangles"] = frame.chain->settled_triangle_count;
     }
     if (frame.planting) put_planting(*frame.planting, json);
     if (frame.stream) put_stream(frame, json);

@@ -182,17 +182,15 @@ void watch(KeyWatch& keys, const FrameRecord& frame) {
     }
 }
 
-view::ErrorBudget budget_of(const Options& options, Method method, double least_error_px) {
-    if (options.triangles > 0 && (method == Method::caveclod || method == Method::caveclod_shared))
-        return {0, least_error_px, false};
+view::ErrorBudget budget_of(const Options& options, Method method, Thing thing, double least_error_px) {
+    bool keeps_it = options.triangles > 0 ? keeps_triangles(method, thing) : keeps_ms(method, thing);
+    if (keeps_it) return {0, least_error_px, false};
     if (options.triangles > 0) return {double(options.triangles), least_error_px, false};
     return {options.frame_ms, least_error_px, true};
 }
 
 double cost_of(const Options& options, const FrameRecord& frame) {
-    if (options.triangles <= 0) return frame.refine_ms + frame.draw_ms;
-    // What chains take for a change of level is over soon.
-    return double(frame.chain ? frame.chain->settled_triangle_count : frame.triangle_count);
+    return options.triangles > 0 ? double(frame.triangle_count) : frame.refine_ms + frame.draw_ms;
 }
 
 void settle(Plan& plan, const Scene& scene) {

@@ -24,8 +24,8 @@ struct KeyWatch {
 void watch(KeyWatch& keys, const FrameRecord& frame);
 
 // What --triangles or --frame-ms leave, and what a frame takes of it; least_error_px is asked where they leave enough. None where
-// the method keeps the triangles by itself.
-view::ErrorBudget budget_of(const Options& options, Method method, double least_error_px);
+// the method keeps them by itself.
+view::ErrorBudget budget_of(const Options& options, Method method, Thing thing, double least_error_px);
 double cost_of(const Options& options, const FrameRecord& frame);
 
 class Scene {

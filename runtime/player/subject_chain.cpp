@@ -9,6 +9,7 @@
 #include "runtime/discrete/draw_frames.h"
 #include "runtime/gl/timer.h"
 #include "runtime/player/subject.h"
+#include "runtime/view/error_budget.h"
 
 namespace overlook::player {
 namespace {
@@ -84,7 +85,8 @@ class ChainSubject : public Subject {
         if (is_first)
             if (Result<void> prepared = frames_->prepare(camera, target); !prepared) return tl::unexpected(prepared.error());
         FrameRecord record;
-        record.asked_error_px = style.error_px;
+        time_.set_most_ms(style.most_ms);
+        frames_->set_budget(style.most_triangles > 0 ? double(style.most_triangles) : time_.work());
         if (has_drawn_) clip_s_ += style.dt_s;
         has_drawn_ = true;
         gl::Timer deciding;
@@ -100,8 +102,10 @@ class ChainSubject : public Subject {
         record.triangle_count = counts->triangle_count;
         record.tested_count = counts->tested_count;
         record.uploaded_bytes = counts->uploaded_bytes;
+        record.asked_error_px = style.error_px * counts->coarser_times;
         record.predicted_error_px = counts->error_px;
         record.chain = *counts;
+        time_.frame_done(record.refine_ms + record.draw_ms, double(counts->settled_triangle_count), counts->coarser_times > 1);
         return record;
     }
 
@@ -146,7 +150,8 @@ class ChainSubject : public Subject {
     glm::dvec3 lowest_m_{std::numeric_limits<double>::infinity()}, highest_m_{-std::numeric_limits<double>::infinity()};
     double least_radius_m_ = std::numeric_limits<double>::infinity();
     std::unique_ptr<discrete::FrameDrawer> frames_;
-    double clip_s_ = 0;  // of the frame; 0 of the first
+    view::WorkAllowance time_;  // of triangles, where a frame's time is to be kept
+    double clip_s_ = 0;         // of the frame; 0 of the first
     bool has_drawn_ = false;
 };
 
@@ -158,8 +163,12 @@ Result<std::unique_ptr<Subject>> read_chains(std::span<const ChainLayer> layers,
         Result<discrete::Chain> chain = discrete::read(layer.file);
         if (!chain) return tl::unexpected(chain.error());
         bool moves = std::any_of(layer.instances.begin(), layer.instances.end(), [](const auto& one) { return one.moves(); });
-        chains.push_back({std::make_unique<const discrete::Chain>(std::move(*chain)), layer.instances, layer.whole, moves,
-                          discrete::placements_of(layer.instances, layer.whole), {}});
+        chains.push_back({std::make_unique<const discrete::Chain>(std::move(*chain)),
+                          layer.instances,
+                          layer.whole,
+                          moves,
+                          discrete::placements_of(layer.instances, layer.whole),
+                          {}});
     }
     return std::make_unique<ChainSubject>(std::move(chains), options);
 }

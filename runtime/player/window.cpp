@@ -249,8 +249,9 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
                     plan.draw,
                     0,
                     plan.options.triangles,
+                    plan.options.frame_ms,
                     plan.options.pipelined};
-    view::ErrorController controller(budget_of(plan.options, flight.style.method, flight.style.error_px));
+    view::ErrorController controller(budget_of(plan.options, flight.style.method, flight.style.thing, flight.style.error_px));
     std::optional<gl::Target> target;
     std::vector<FrameRecord> records;
     double last_s = glfwGetTime();
@@ -279,7 +280,7 @@ Result<void> fly_until_end(const Plan& plan, const command::Common& common, Scen
         flight.camera.width_px = target->width_px();
         flight.camera.height_px = target->height_px();
         if (events.presses.error != 0 || events.presses.method != 0)
-            controller.set_budget(budget_of(plan.options, flight.style.method, flight.style.error_px));
+            controller.set_budget(budget_of(plan.options, flight.style.method, flight.style.thing, flight.style.error_px));
         Result<FrameRecord> record = scene.draw(*target, flight.camera, style_of(flight, controller));
         if (!record) return tl::unexpected(record.error());
         if (takes_budgets(flight.style.method)) controller.frame_done(cost_of(plan.options, *record));

@@ -10,6 +10,7 @@ constexpr double kAim = 0.975, kRestFrom = 0.95;  // shares of the budget
 constexpr double kMostFallAFrame = 0.03;          // of the error's logarithm
 constexpr double kMostError_px = 256;
 constexpr double kLeastExponent = 0.3, kMostExponent = 3;
+constexpr double kLeastTimeShare = 0.85, kTimeAim = 0.925, kMostGrowth = 1.1;  // of a time
 constexpr double kLeastLesson = 0.01;  // changes of the error below 1 % teach nothing about its effect
 
 }  // namespace
@@ -17,14 +18,13 @@ constexpr double kLeastLesson = 0.01;  // changes of the error below 1 % teach n
 void ErrorController::set_budget(const ErrorBudget& budget) {
     budget_ = budget;
     error_px_ = budget.cost > 0 ? std::max(error_px_, budget.least_error_px) : budget.least_error_px;
-    latest_count_ = 0;
+    latest_.forget();
 }
 
-// Times scatter: the middle one of the last three.
-double ErrorController::judged_cost(double cost) {
-    if (!budget_.is_measured) return cost;
-    latest_[size_t(latest_count_++ % 3)] = cost;
-    if (latest_count_ < 3) return cost;
+double MiddleOfThree::next(double value) {
+    latest_[size_t(count_ % 3)] = value;
+    count_ = count_ < 5 ? count_ + 1 : 3;
+    if (!is_full()) return value;
     std::array<double, 3> sorted = latest_;
     std::sort(sorted.begin(), sorted.end());
     return sorted[1];
@@ -41,14 +41,32 @@ void ErrorController::learn(double cost) {
 
 void ErrorController::frame_done(double cost) {
     if (!(budget_.cost > 0)) return;
-    cost = judged_cost(cost);
+    if (budget_.is_measured) cost = latest_.next(cost);
     learn(cost);
     double share = cost / budget_.cost;
     if (share >= kRestFrom && share <= 1) return;
     double step = std::log(std::max(share, 1e-6) / kAim) / exponent_;
     error_px_ = std::clamp(error_px_ * std::exp(std::max(step, -kMostFallAFrame)), budget_.least_error_px,
                            std::max(kMostError_px, budget_.least_error_px));
-    if (budget_.is_measured) latest_count_ = 0;
+    if (budget_.is_measured) latest_.forget();
+}
+
+void WorkAllowance::set_most_ms(double most_ms) {
+    if (most_ms == most_ms_) return;
+    most_ms_ = most_ms;
+    latest_.forget();
+    if (most_ms_ <= 0) work_ = 0;
+}
+
+void WorkAllowance::frame_done(double ms, double work, bool is_held_back) {
+    if (most_ms_ <= 0) return;
+    ms = latest_.next(ms);
+    if (!latest_.is_full()) return;
+    bool is_over = ms > most_ms_;
+    if (!is_over && (ms >= kLeastTimeShare * most_ms_ || !is_held_back)) return;
+    double aim = kTimeAim * most_ms_ / std::max(ms, 1e-6);
+    work_ = is_over ? std::max(work * aim, 1.0) : std::max(work_, work) * std::min(aim, kMostGrowth);
+    latest_.forget();
 }
 
 }  // namespace overlook::view

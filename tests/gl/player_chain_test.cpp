@@ -113,8 +113,9 @@ TEST_F(ChainPlayer, DrawsSeveralChainsAsTheyStandInTheScene) {
 TEST_F(ChainPlayer, MovesItsInstancesWithTheFlight) {
     // The fifth frame is at 0.5 s.
     auto scene_of = [](const char* instance) {
-        return fmt::format(R"({{"version": 1, "layers": [{{"asset": "chain.ovl", "method": "discrete:switch", "instances": [{}]}}]}})",
-                           instance);
+        return fmt::format(
+            R"({{"version": 1, "layers": [{{"asset": "chain.ovl", "method": "discrete:switch", "instances": [{}]}}]}})",
+            instance);
     };
     auto draw = [&](const char* instance, const char* picture) {
         write("scene.json", scene_of(instance));
@@ -125,6 +126,53 @@ TEST_F(ChainPlayer, MovesItsInstancesWithTheFlight) {
     draw(R"({"translation_m": [2, 3, 1]})", "before.png");
     EXPECT_TRUE(bytes("moved.png") == bytes("there.png"));
     EXPECT_TRUE(bytes("moved.png") != bytes("before.png"));
+}
+
+// Five of the nine are spheres without a budget.
+constexpr char kNear[] = R"({"version": 1, "step_s": 0.03125, "interpolation": "linear", "keys": [
+  {"time_s": 0, "position_m": [4, -14, 4], "heading_deg": 0, "pitch_deg": -8},
+  {"time_s": 1.5, "position_m": [4, -12, 4], "heading_deg": 0, "pitch_deg": -8}]})";
+
+// Half of what is taken without a budget: kept in every frame once the changes that it asked for are over, at an error that says
+// so.
+TEST_F(ChainPlayer, KeepsABudgetOfTriangles) {
+    write("flight.json", kNear);
+    for (const char* method : {"discrete", "discrete:blend", "discrete:late"}) {
+        SCOPED_TRACE(method);
+        std::string line = flown(method, "chain.png") + " --headless";
+        ASSERT_EQ(play(line), 0) << output_;
+        uint64_t free = report()["frames"].back()["triangles"];
+        for (double share : {0.5, 0.25}) {
+            auto budget = uint64_t(share * double(free));
+            ASSERT_EQ(play(line + " --triangles " + std::to_string(budget)), 0) << output_;
+            nlohmann::json frames = report()["frames"];
+            for (const auto& frame : frames) {
+                EXPECT_LE(frame["settled_triangles"].get<uint64_t>(), budget);
+                EXPECT_GT(frame["asked_error_px"].get<double>(), 1);
+                EXPECT_LE(frame["predicted_error_px"].get<double>(), frame["asked_error_px"].get<double>());
+            }
+            EXPECT_LE(frames.back()["triangles"].get<uint64_t>(), budget);
+        }
+        ASSERT_EQ(play(line + " --triangles " + std::to_string(2 * free)), 0) << output_;
+        EXPECT_EQ(report()["frames"].back()["triangles"], free);
+        EXPECT_EQ(report()["frames"].back()["asked_error_px"], 1);
+    }
+}
+
+// A time that no frame keeps takes the fewest triangles that there are; one that all keep changes nothing.
+TEST_F(ChainPlayer, KeepsATimeByTriangles) {
+    write("flight.json", kNear);
+    std::string line = flown("discrete", "chain.png") + " --headless";
+    ASSERT_EQ(play(line), 0) << output_;
+    nlohmann::json free = report()["frames"];
+    ASSERT_EQ(play(line + " --frame-ms 600000"), 0) << output_;
+    EXPECT_EQ(report()["frames"].back()["triangles"], free.back()["triangles"]);
+    EXPECT_EQ(report()["frames"].front()["asked_error_px"], 1);
+    ASSERT_EQ(play(line + " --frame-ms 0.001"), 0) << output_;
+    nlohmann::json frames = report()["frames"];
+    EXPECT_EQ(frames[12]["triangles"], 9 * 12);  // cubes
+    EXPECT_GT(free[12]["triangles"].get<uint64_t>(), 9 * 12);
+    EXPECT_GT(frames[12]["asked_error_px"].get<double>(), 1);
 }
 
 TEST_F(ChainPlayer, RefusesInOneLine) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "runtime/terrain/refine.h"
 #include "tests/tools/synthetic_dem.h"
@@ -92,6 +95,131 @@ TEST(ErrorController, WithoutABudgetAsksWhatWasAsked) {
     ErrorController controller({0, 1.5, false});
     controller.frame_done(1e9);
     EXPECT_EQ(controller.error_px(), 1.5);
+}
+
+TEST(MiddleOfThree, IsTheMiddleOfTheLastThree) {
+    MiddleOfThree middle;
+    std::vector<double> given = {5, 1, 3, 9, 2, 2, 7, 8, 6, 0}, wanted = {5, 1, 3, 3, 3, 2, 2, 7, 7, 6};
+    for (size_t i = 0; i < given.size(); ++i) {
+        EXPECT_EQ(middle.next(given[i]), wanted[i]) << i;
+        EXPECT_EQ(middle.is_full(), i >= 2) << i;
+    }
+    middle.forget();
+    EXPECT_EQ(middle.next(4), 4);
+    EXPECT_FALSE(middle.is_full());
+}
+
+// A renderer that takes `fixed_ms` and `ms_a_piece`, of work that comes in pieces of `grain`, `demanded` of it.
+struct Worker {
+    double fixed_ms = 2, ms_a_piece = 1e-4, grain = 500, demanded = 4e5;
+    double done(const WorkAllowance& allowance) const {
+        if (allowance.work() <= 0) return demanded;
+        return std::min(demanded, std::max(std::floor(allowance.work() / grain), 1.0) * grain);
+    }
+    double ms(double work) const { return fixed_ms + ms_a_piece * work; }
+};
+
+// The last of so many frames' milliseconds; jitter: a factor of each.
+template <class Jitter>
+double run(WorkAllowance& allowance, const Worker& worker, int frames, Jitter&& jitter) {
+    double ms = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+        double work = worker.done(allowance);
+        ms = worker.ms(work);
+        allowance.frame_done(ms * jitter(frame), work, work < worker.demanded);
+    }
+    return ms;
+}
+double evenly(int) {
+    return 1;
+}
+
+TEST(WorkAllowance, LetsAFrameTakeItsTimeAndNoMoreWhateverElseTakesTime) {
+    for (double fixed_ms : {0.0, 2.0, 9.0, 14.0}) {
+        Worker worker;
+        worker.fixed_ms = fixed_ms;
+        WorkAllowance allowance;
+        allowance.set_most_ms(16);
+        double ms = run(allowance, worker, 120, evenly);
+        EXPECT_LE(ms, 16) << fixed_ms;
+        EXPECT_GE(ms, 0.8 * 16) << fixed_ms;
+        double work = allowance.work();
+        run(allowance, worker, 60, evenly);
+        EXPECT_EQ(allowance.work(), work) << fixed_ms;  // rests
+    }
+}
+
+TEST(WorkAllowance, FollowsStepsOfTheTimeAndOfTheLoadWithoutSwinging) {
+    Worker worker;
+    WorkAllowance allowance;
+    allowance.set_most_ms(20);
+    EXPECT_LE(run(allowance, worker, 60, evenly), 20);
+    for (auto [most_ms, ms_a_piece] : {std::pair(10.0, 1e-4), {10.0, 3e-4}, {30.0, 3e-4}, {30.0, 5e-5}, {8.0, 5e-5}}) {
+        allowance.set_most_ms(most_ms), worker.ms_a_piece = ms_a_piece;
+        int changes_of_sign = 0;
+        double last_step = 0;
+        for (int frame = 0; frame < 150; ++frame) {
+            double before = allowance.work();
+            run(allowance, worker, 1, evenly);
+            double step = allowance.work() - before;
+            if (step * last_step < 0) ++changes_of_sign;
+            if (step != 0) last_step = step;
+        }
+        double ms = worker.ms(worker.done(allowance));
+        EXPECT_LE(ms, most_ms) << most_ms << " " << ms_a_piece;
+        EXPECT_TRUE(ms >= 0.8 * most_ms || worker.done(allowance) == worker.demanded) << ms << " of " << most_ms;
+        EXPECT_LE(changes_of_sign, 1) << most_ms << " " << ms_a_piece;
+    }
+}
+
+TEST(WorkAllowance, IsNotMovedByOneSlowFrame) {
+    WorkAllowance allowance;
+    allowance.set_most_ms(10);
+    for (double ms : {9.0, 9.1, 40.0, 9.0, 8.9, 40.0, 9.0}) allowance.frame_done(ms, 1000, false);
+    EXPECT_EQ(allowance.work(), 0);
+    for (double ms : {20.0, 21.0}) allowance.frame_done(ms, 1000, false);
+    EXPECT_GT(allowance.work(), 0);
+    EXPECT_LT(allowance.work(), 500);
+}
+
+TEST(WorkAllowance, OfATimeThatCannotBeKeptDoesNotWindUpAndComesBack) {
+    Worker worker;
+    worker.fixed_ms = 50;
+    WorkAllowance allowance;
+    allowance.set_most_ms(10);
+    run(allowance, worker, 1000, evenly);
+    EXPECT_LE(worker.done(allowance), worker.grain);
+    EXPECT_GE(allowance.work(), 1);
+    worker.fixed_ms = 2;
+    EXPECT_GE(run(allowance, worker, 300, evenly), 8);
+    EXPECT_LE(run(allowance, worker, 10, evenly), 10);
+}
+
+TEST(WorkAllowance, WithoutATimeThereIsNone) {
+    WorkAllowance allowance;
+    for (int i = 0; i < 10; ++i) allowance.frame_done(1e9, 1e9, true);
+    EXPECT_EQ(allowance.work(), 0);
+    allowance.set_most_ms(1);
+    for (int i = 0; i < 10; ++i) allowance.frame_done(1e9, 1e9, true);
+    EXPECT_GE(allowance.work(), 1);
+    allowance.set_most_ms(0);
+    EXPECT_EQ(allowance.work(), 0);
+}
+
+// Times that scatter by a quarter, as of a busy machine: over the time in few frames, and not far under it.
+TEST(WorkAllowance, IsKeptWhereTimesScatter) {
+    Worker worker;
+    WorkAllowance allowance;
+    allowance.set_most_ms(16);
+    auto scattered = [state = uint32_t(1)](int) mutable {
+        state = state * 1664525u + 1013904223u;
+        return 0.875 + 0.25 * double(state >> 8) / double(1u << 24);
+    };
+    run(allowance, worker, 60, scattered);
+    double sum = 0;
+    for (int frame = 0; frame < 300; ++frame) sum += run(allowance, worker, 1, scattered);
+    EXPECT_LE(sum / 300, 16);
+    EXPECT_GE(sum / 300, 0.75 * 16);
 }
 
 }  // namespace

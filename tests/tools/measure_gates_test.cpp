@@ -139,5 +139,14 @@ TEST(FrameNumbers, AreEachWorseForAFrameThatIsWrong) {
     EXPECT_EQ(seen, 8u);  // E twice, W, S twice, holes, PSNR, luma
 }
 
+TEST(MeasureFigures, HaveAMeanOverTheFramesThatHaveOne) {
+    RunResult run = run_of(*parse_method("terrain@error-px=1"), 5, 0.2);
+    EXPECT_EQ(mean_of(run, "triangles"), 1004.5);
+    EXPECT_DOUBLE_EQ(mean_of(run, "e_p99_flip").value(), 0.2025);
+    EXPECT_EQ(mean_of(run, "ghost_share"), std::nullopt);
+    run.frames.clear();
+    EXPECT_EQ(mean_of(run, "triangles"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace overlook::measure

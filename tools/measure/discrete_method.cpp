@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 
-#include "runtime/discrete/budget.h"
 #include "runtime/discrete/draw_frames.h"
 #include "tools/measure/honesty/chain_honesty.h"
 
@@ -29,10 +28,10 @@ discrete::FrameOptions options_of(const MethodSpec& spec) {
 
 class Chain : public Method {
   public:
-    Chain(World& world, const MethodSpec& spec) : world_(world), asked_(options_of(spec)) {
+    Chain(World& world, const MethodSpec& spec) : world_(world) {
         std::vector<discrete::Stand> stands;
         for (const ChainWorld& one : world.chains) stands.push_back({&*one.drawing, one.placements});
-        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(stands, asked_);
+        Result<std::unique_ptr<discrete::FrameDrawer>> frames = discrete::FrameDrawer::make(stands, options_of(spec));
         assert(frames);
         frames_ = std::move(*frames);
     }
@@ -45,23 +44,13 @@ class Chain : public Method {
     void decide(const view::Camera& camera, uint32_t frame) override {
         for (size_t i = 0; i < world_.chains.size(); ++i)
             if (world_.chains[i].moves()) frames_->place(world_.chains[i].placements, i);
-        if (keeper_) ask_for(keeper_->error_px(directors(), camera));
         frames_->decide(camera, double(frame - last_frame_) * world_.step_s, double(frame) * world_.step_s);
-        if (keeper_) keeper_->frame_done(double(frames_->counts().settled_triangle_count));
         last_frame_ = frame;
         camera_ = camera;
     }
 
-    // Within a budget the error asked for goes up and down with what frames cost.
     bool set_triangles(double triangles) override {
-        if (triangles <= 0) {
-            keeper_.reset();
-            ask_for(asked_.select.error_px);
-        } else if (keeper_) {
-            keeper_->set_triangles(triangles);
-        } else {
-            keeper_.emplace(triangles, asked_.select.error_px);
-        }
+        frames_->set_budget(triangles);
         return true;
     }
 
@@ -90,22 +79,7 @@ class Chain : public Method {
     }
 
   private:
-    std::vector<const discrete::Director*> directors() const {
-        std::vector<const discrete::Director*> all;
-        for (size_t i = 0; i < world_.chains.size(); ++i) all.push_back(&frames_->director(i));
-        return all;
-    }
-    void ask_for(double error_px) {
-        discrete::FrameOptions options = asked_;
-        options.select.error_px = error_px;
-        Result<void> changed = frames_->change(options);
-        assert(changed);
-        static_cast<void>(changed);
-    }
-
     World& world_;
-    discrete::FrameOptions asked_;
-    std::optional<discrete::BudgetKeeper> keeper_;  // within a budget
     std::unique_ptr<discrete::FrameDrawer> frames_;
     uint32_t last_frame_ = 0;
     view::Camera camera_;

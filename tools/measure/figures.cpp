@@ -112,6 +112,14 @@ Percentiles percentiles_of(const RunResult& run, std::string_view figure_name) {
     return percentiles_of(values_of(run, figure(figure_name)));
 }
 
+std::optional<double> mean_of(const RunResult& run, std::string_view figure_name) {
+    std::vector<double> values = values_of(run, figure(figure_name));
+    if (values.empty()) return std::nullopt;
+    double sum = 0;
+    for (double value : values) sum += value;
+    return sum / double(values.size());
+}
+
 std::vector<Gate> gates_of(const RunResult& run) {
     std::vector<Gate> gates;
     if (values_of(run, figure("hole_px")).empty()) return gates;

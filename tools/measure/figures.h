@@ -25,6 +25,8 @@ const Figure& figure(std::string_view name);
 // The values of a figure over the frames that have one, in order of time.
 std::vector<double> values_of(const RunResult& run, const Figure& figure);
 Percentiles percentiles_of(const RunResult& run, std::string_view figure_name);
+// The mean of these; none if no frame has one.
+std::optional<double> mean_of(const RunResult& run, std::string_view figure_name);
 
 // What a default run must keep, and whether it did: at most `limit`, or at least.
 struct Gate {

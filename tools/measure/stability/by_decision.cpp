@@ -133,15 +133,19 @@ Result<Finding> operations_at_rest(const Stage& stage, const MethodSpec& spec, c
     return finding;
 }
 
-// What a flight of counted triangles under a budget halved at `middle` showed.
+// What a flight of counted triangles under a budget halved at `middle` showed. A frame misses it by what it takes more, or less
+// than the budget or, where that is less, than it takes without one.
 struct Budgeted {
     uint32_t frames_until_met = 0;
     double miss_share = 0;
     uint32_t changes_of_sign = 0;
 };
-Budgeted judge_budget(const std::vector<double>& costs, size_t middle, double budget) {
+Budgeted judge_budget(const std::vector<double>& costs, const std::vector<double>& free, size_t middle, double budget) {
     Budgeted found;
-    auto miss = [&](size_t frame) { return std::abs(costs[frame] - budget) / budget; };
+    auto miss = [&](size_t frame) {
+        double wanted = std::min(budget, free[frame]), lacks = wanted > 0 ? (wanted - costs[frame]) / wanted : 0;
+        return std::max({(costs[frame] - budget) / budget, lacks, 0.0});
+    };
     int sign = 0;
     for (size_t frame = middle; frame < costs.size(); ++frame) {
         size_t after = frame - middle;
@@ -190,25 +194,26 @@ Result<Finding> halved_budget_by_method(Stage& stage, const MethodSpec& spec, co
                                         double share) {
     if (!stage.make(spec, stage.world)->set_triangles(0)) return keeps_no_budget(stage, spec, cameras);
     size_t middle = cameras.size() / 2;
-    std::vector<view::Camera> first_half(cameras.begin(), cameras.begin() + ptrdiff_t(middle));
-    Result<std::vector<double>> free = costs_of(stage, spec, first_half, 0, 1);
+    Result<std::vector<double>> free = costs_of(stage, spec, cameras, 0, 1);
     if (!free) return tl::unexpected(free.error());
-    auto started = free->begin() + ptrdiff_t(kStarted * double(middle));
-    double mean = std::accumulate(started, free->end(), 0.0) / double(free->end() - started), budget = kFirstBudget * mean;
+    auto started = free->begin() + ptrdiff_t(kStarted * double(middle)), ended = free->begin() + ptrdiff_t(middle);
+    double mean = std::accumulate(started, ended, 0.0) / double(ended - started), budget = kFirstBudget * mean;
     Result<std::vector<double>> costs = costs_of(stage, spec, cameras, budget, share);
     if (!costs) return tl::unexpected(costs.error());
-    Budgeted found = judge_budget(*costs, middle, share * budget);
+    Budgeted found = judge_budget(*costs, *free, middle, share * budget);
     Finding finding;
     finding.figures["budget_miss_share"] = found.miss_share;
     finding.figures["frames_until_budget_met"] = found.frames_until_met;
     finding.figures["changes_of_sign"] = found.changes_of_sign;
     finding.frames = uint32_t(cameras.size());
     auto [least, most] = std::minmax_element(costs->begin() + ptrdiff_t(middle + kSettled), costs->end());
+    auto settled = free->begin() + ptrdiff_t(middle + kSettled);
     finding.sentence = fmt::format(
         "A frame takes {:.0f} {} without a budget{}. {:.0f} allowed from frame {} on: {:.0f} to {:.0f} drawn, {} frames "
-        "after that.",
+        "after that, where {:.0f} at least would be taken without.",
         mean, stage.world.is_planted() ? "samples and triangles" : "triangles",
-        is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled);
+        is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled,
+        *std::min_element(settled, free->end()));
     Result<Shot> shot = shot_of(stage, spec, cameras.back(), uint32_t(cameras.size() - 1));
     if (!shot) return tl::unexpected(shot.error());
     finding.worst = std::move(*shot);
@@ -308,8 +313,10 @@ Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, c
         stage.world.refiner->cut_by_pixels(cameras[0], setting(spec, "error-px"), cut, morph_of(spec));
         view::ErrorBudget budget{kFirstBudget * double(cut.triangle_count()), setting(spec, "error-px"), false};
         view::ErrorController controller(budget);
-        std::vector<double> costs;
+        std::vector<double> costs, free;
         for (size_t frame = 0; frame < cameras.size(); ++frame) {
+            stage.world.refiner->cut_by_pixels(cameras[frame], budget.least_error_px, cut, morph_of(spec));
+            free.push_back(double(cut.triangle_count()));
             if (frame == middle) {
                 budget.cost *= each.settings.budget_share;
                 controller.set_budget(budget);
@@ -318,7 +325,7 @@ Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, c
             costs.push_back(double(cut.triangle_count()));
             controller.frame_done(costs.back());
         }
-        Budgeted found = judge_budget(costs, middle, budget.cost);
+        Budgeted found = judge_budget(costs, free, middle, budget.cost);
         Finding finding;
         finding.figures["budget_miss_share"] = found.miss_share;
         finding.figures["frames_until_budget_met"] = found.frames_until_met;

@@ -196,7 +196,12 @@ Result<Finding> turn_back(Stage& stage, const MethodSpec& spec, const scene::Fli
     constexpr uint32_t kBefore = 2;  // frames judged before the takeover
     Result<std::optional<uint32_t>> takeover = first_takeover(stage, spec, cameras);
     if (!takeover) return tl::unexpected(takeover.error());
-    if (!*takeover) return impossible("{}: nothing takes over from anything else on this flight", label_of(spec));
+    if (!*takeover) {
+        Finding nothing;
+        nothing.frames = uint32_t(cameras.size());
+        nothing.sentence = "Nothing changes on this flight after its first frame, so that nothing is shown of how.";
+        return nothing;
+    }
     uint32_t fade = transition_frames_of(spec, flight.step_s), event = **takeover;
     Turn turn = turn_of(event, fade, uint32_t(cameras.size()));
     Result<Watched> watched = Watched::make(stage, spec);

@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kLateError_px = 0.25;  // what nobody sees, at any size
 
-double mean_of(const RunResult& run, std::string_view name) {
-    std::vector<double> values = values_of(run, figure(name));
-    double sum = 0;
-    for (double value : values) sum += value;
-    return values.empty() ? 0 : sum / double(values.size());
-}
-
 double odd_even_of(const RunResult& run) {
     double sum = 0;
     for (size_t i = 1; i < run.frames.size(); ++i) {
@@ -33,8 +26,8 @@ Point point_of(const RunResult& run) {
     point.frames = uint32_t(run.frames.size());
     Percentiles ms = percentiles_of(run, "frame_ms");
     point.p50_ms = ms.p50, point.max_ms = ms.max, point.decide_p50_ms = percentiles_of(run, "decide_ms").p50;
-    point.triangles = mean_of(run, "triangles"), point.draw_calls = mean_of(run, "draw_calls");
-    point.fading = mean_of(run, "transitions");
+    point.triangles = mean_of(run, "triangles").value_or(0), point.draw_calls = mean_of(run, "draw_calls").value_or(0);
+    point.fading = mean_of(run, "transitions").value_or(0);
     point.odd_even = odd_even_of(run);
     for (const FrameRecord& frame : run.frames) {
         point.resident_bytes = std::max(point.resident_bytes, frame.counters.resident_bytes);

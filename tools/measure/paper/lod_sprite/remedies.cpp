@@ -72,13 +72,6 @@ Result<Cast> cast_of_rows(const Plan& plan) {
     return cast_from(plan, methods);
 }
 
-double mean_of(const RunResult& run, std::string_view figure_name) {
-    std::vector<double> values = values_of(run, figure(figure_name));
-    double sum = 0;
-    for (double value : values) sum += value;
-    return values.empty() ? 0 : sum / double(values.size());
-}
-
 // "W x 1.2" where `least` is passed both as a share of the whole method's and, so that noise about nothing is not told, by
 // itself.
 struct Change {
@@ -134,15 +127,15 @@ RemedyFigures figures_of(const RunResult& run) {
     Percentiles times_ms = percentiles_of(run, "frame_ms");
     figures.mean_ms = mean_ms(run);
     figures.p99_ms = times_ms.p99;
-    figures.triangles = mean_of(run, "triangles");
-    figures.key_pixels = mean_of(run, "key_pixels");
+    figures.triangles = mean_of(run, "triangles").value_or(0);
+    figures.key_pixels = mean_of(run, "key_pixels").value_or(0);
     figures.keys = swept_from(run, nullptr, kThreshold_px).keyframes;
-    figures.e_mean = mean_of(run, "e_mean_flip");
+    figures.e_mean = mean_of(run, "e_mean_flip").value_or(0);
     figures.e_p99 = percentiles_of(run, "e_p99_flip").p99;
-    figures.w_mean = mean_of(run, "w_luma");
+    figures.w_mean = mean_of(run, "w_luma").value_or(0);
     figures.pop_index = run.pop.index;
-    figures.ghost_share = mean_of(run, "ghost_share");
-    figures.loss_share = mean_of(run, "loss_share");
+    figures.ghost_share = mean_of(run, "ghost_share").value_or(0);
+    figures.loss_share = mean_of(run, "loss_share").value_or(0);
     figures.hole_px = percentiles_of(run, "hole_px").max;
     return figures;
 }

@@ -19,14 +19,6 @@ double mean_over(const RunResult& run, const std::function<double(const FrameRec
     return sum / double(run.frames.size());
 }
 
-Value mean_of(const RunResult& run, std::string_view figure_name) {
-    std::vector<double> values = values_of(run, figure(figure_name));
-    if (values.empty()) return std::nullopt;
-    double sum = 0;
-    for (double value : values) sum += value;
-    return sum / double(values.size());
-}
-
 Value ratio(Value above, Value below) {
     if (!above || !below || *below == 0) return std::nullopt;
     return *above / *below;

@@ -71,14 +71,6 @@ class Runs {
     double near_m_, tile_m_;
 };
 
-std::optional<double> mean_of(const RunResult& run, std::string_view name) {
-    std::vector<double> values = values_of(run, figure(name));
-    if (values.empty()) return std::nullopt;
-    double sum = 0;
-    for (double value : values) sum += value;
-    return sum / double(values.size());
-}
-
 void take(const CourseResult& course, const RunResult& run, bool is_compared, FieldRow& row) {
     Percentiles ms = percentiles_of(run, "frame_ms");
     row.ms_p50 = ms.p50, row.ms_p99 = ms.p99;
