@@ -44,10 +44,7 @@ using Around = std::array<int, 9>;
 std::vector<Around> surroundings(const TileSet& set, uint32_t count, uint64_t seed) {
     std::vector<Around> around;
     for (uint32_t t = 0; t < count; ++t) around.push_back({-1, -1, -1, -1, int(t), -1, -1, -1, -1});
-    TilingOptions options;
-    options.seed = seed;
-    auto tiling = tile_row_by_row(set, kTilingSide, kTilingSide, options);
-    if (!tiling) options.avoids_equal_neighbours = false, tiling = tile_row_by_row(set, kTilingSide, kTilingSide, options);
+    auto tiling = tile_square(set, kTilingSide, seed);
     if (!tiling) return around;
     for (uint32_t y = kTilingSide - 2; y > 0; --y)
         for (uint32_t x = kTilingSide - 2; x > 0; --x) {

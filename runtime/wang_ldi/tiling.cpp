@@ -158,6 +158,15 @@ uint8_t RowTiling::at(int64_t x, int64_t y) const {
     return tiling_.at(inside(x - rect_.x, rect_.columns), inside(y - rect_.y, rect_.rows));
 }
 
+Result<Tiling> tile_square(const TileSet& set, uint32_t side, uint64_t seed) {
+    TilingOptions options;
+    options.seed = seed, options.avoids_equal_neighbours = set.tiles.size() > 1;
+    auto tiling = tile_row_by_row(set, side, side, options);
+    if (tiling || !options.avoids_equal_neighbours) return tiling;
+    options.avoids_equal_neighbours = false;
+    return tile_row_by_row(set, side, side, options);
+}
+
 NeighbourCount count_neighbours(const TileSet& set, const Tiling& tiling) {
     NeighbourCount count;
     for (uint32_t y = 0; y < tiling.rows; ++y)

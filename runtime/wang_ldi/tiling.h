@@ -47,6 +47,9 @@ struct TilingOptions {
 // set fits at column 3, row 7".
 Result<Tiling> tile_row_by_row(const TileSet& set, uint32_t columns, uint32_t rows, const TilingOptions& options);
 
+// Of `side` x `side` tiles, avoiding equal neighbours if the set lets that be done, else as the paper. Fails as tile_row_by_row.
+Result<Tiling> tile_square(const TileSet& set, uint32_t side, uint64_t seed);
+
 // Whether some tile has no other to its east or to its north, or some pair of tiles to the west and to the south, that meet at a
 // third, leaves no tile that fits both and equals neither.
 bool can_dead_end(const TileSet& set);

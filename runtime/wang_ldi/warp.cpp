@@ -32,6 +32,13 @@ void Warped::clear(uint32_t width, uint32_t height) {
     depth_m.assign(size_t(width) * height, std::numeric_limits<float>::infinity());
 }
 
+ImageRgb8 picture_of(const Warped& warped) {
+    ImageRgb8 image{warped.width_px, warped.height_px, {}};
+    for (uint32_t colour : warped.colours)
+        for (int shift : {0, 8, 16}) image.pixels.push_back(colour == 0 ? 128 : uint8_t(colour >> shift & 0xff));
+    return image;
+}
+
 void warp(const view::Camera& camera, const ImageSet& set, std::span<const Drawn> back_to_front, Hiding hiding, Warped& picture) {
     if (hiding == Hiding::by_order)
         warp_all<Hiding::by_order>(camera, set, back_to_front, picture);

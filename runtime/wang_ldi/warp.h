@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "formats/image.h"
 #include "formats/wang_ldi.h"
 #include "runtime/view/camera.h"
 
@@ -24,6 +25,9 @@ struct Warped {
 
     void clear(uint32_t width, uint32_t height);
 };
+
+// For the eye: where nothing is it is grey.
+ImageRgb8 picture_of(const Warped& warped);
 
 // What was done for a picture. Of tiles that are found to lie outside of it, nothing is counted.
 struct WarpCounts {

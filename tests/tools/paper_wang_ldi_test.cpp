@@ -4,65 +4,15 @@
 #include <cmath>
 
 #include "formats/atomic_file.h"
+#include "runtime/wang_ldi/perspective_warp.h"
 #include "tests/formats/scratch_folder.h"
 #include "tools/measure/page_text.h"
+#include "tools/measure/paper/wang_ldi/broken.h"
 #include "tools/measure/paper/wang_ldi/page.h"
 #include "tools/measure/paper/wang_ldi/targets.h"
 
 namespace overlook::measure::paper::wang {
 namespace {
-
-view::Camera camera_at(double x_m) {
-    view::Camera camera;
-    camera.position_m = {x_m, 0, 0}, camera.width_px = 64, camera.height_px = 48, camera.near_m = 0.1;
-    return camera;  // looks north
-}
-
-// A wall 10 m to the north and before it, 5 m away, a post of the middle metre.
-wang_ldi::Warped seen_from(double x_m) {
-    view::Camera camera = camera_at(x_m);
-    wang_ldi::Warped seen;
-    seen.clear(64, 48);
-    double focal = view::focal_px(camera);
-    for (uint32_t p = 0; p < 64 * 48; ++p) {
-        double tangent = (p % 64 + 0.5 - 32) / focal;
-        bool is_post = std::abs(x_m + 5 * tangent) < 0.5;
-        seen.colours[p] = is_post ? 0xff0000ff : 0xffff0000, seen.depth_m[p] = is_post ? 5 : 10;
-    }
-    return seen;
-}
-
-TEST(OneLdi, ShowsFromItsOwnPlaceWhatWasSeenThere) {
-    OneLdi one(camera_at(0));
-    one.add(camera_at(0), seen_from(0));
-    EXPECT_EQ(one.sample_count(), 64u * 48);
-    EXPECT_EQ(one.most_layers(), 1u);
-    wang_ldi::Warped drawn;
-    drawn.clear(64, 48);
-    one.draw(camera_at(0), drawn);
-    EXPECT_TRUE(drawn.colours == seen_from(0).colours);
-    Broken broken = broken_of(seen_from(0), drawn);
-    EXPECT_EQ(broken.hole_share, 0);
-    EXPECT_EQ(broken.wrong_share, 0);
-    one.add(camera_at(0), seen_from(0));
-    EXPECT_EQ(one.sample_count(), 64u * 48) << "what is there is not added again";
-}
-
-TEST(OneLdi, LosesFromAsideWhatNoEyeSawAndLessWhereMoreEyesDid) {
-    auto broken_from_aside = [](const std::vector<double>& eyes) {
-        OneLdi one(camera_at(0));
-        for (double x_m : eyes) one.add(camera_at(x_m), seen_from(x_m));
-        wang_ldi::Warped drawn;
-        drawn.clear(64, 48);
-        one.draw(camera_at(0.5), drawn);
-        EXPECT_EQ(one.most_layers(), eyes.size() > 1 ? 2u : 1u);
-        return broken_of(seen_from(0.5), drawn).hole_share;
-    };
-    double of_one = broken_from_aside({0}), of_three = broken_from_aside({0, 0.5, -0.5});
-    // Two columns of 64 lie beyond its rim, two more behind the post as one eye saw it.
-    EXPECT_DOUBLE_EQ(of_one, 4.0 / 64);
-    EXPECT_DOUBLE_EQ(of_three, 2.0 / 64);
-}
 
 TEST(Broken, CountsHolesAndWrongDepthsOfWhatShouldBeThereAlone) {
     wang_ldi::Warped truth, picture;
@@ -72,6 +22,36 @@ TEST(Broken, CountsHolesAndWrongDepthsOfWhatShouldBeThereAlone) {
     Broken broken = broken_of(truth, picture);
     EXPECT_DOUBLE_EQ(broken.hole_share, 1.0 / 3);
     EXPECT_DOUBLE_EQ(broken.wrong_share, 1.0 / 3);
+}
+
+// A wall 10 m to the north of an image's eye, seen from 2 m beside it: what lies beyond the image's rim is told from what is
+// hidden.
+TEST(Holes, AreToldApartByWhetherTheImageCouldHaveThem) {
+    wang_ldi::PerspectiveView image;
+    image.width_px = 64, image.height_px = 48, image.fov_y_deg = 60;
+    view::Camera there = wang_ldi::camera_of(image);
+    there.position_m.x = 2;
+    wang_ldi::Warped truth, picture;
+    truth.clear(64, 48), picture.clear(64, 48);
+    for (size_t p = 0; p < 64 * 48; ++p) truth.colours[p] = 1, truth.depth_m[p] = 10;
+    for (uint32_t row = 0; row < 48; ++row) picture.colours[row * 64 + 20] = 1;
+    HoleCauses causes = causes_of_holes(there, image, truth, picture);
+    // 2 m are 8.3 columns at 10 m: those of the last eight, whose middles lie beyond the rim.
+    EXPECT_DOUBLE_EQ(causes.beyond_share, 8.0 / 64);
+    EXPECT_DOUBLE_EQ(causes.hidden_share, 55.0 / 64);
+    image.far_m = 9;
+    EXPECT_DOUBLE_EQ(causes_of_holes(there, image, truth, picture).hidden_share, 0);
+}
+
+TEST(Errors, AreOfThePixelsInWhichEitherShowsSomething) {
+    wang_ldi::Warped truth, picture;
+    truth.clear(40, 30), picture.clear(40, 30);
+    truth.colours[15 * 40 + 3] = 0xff0000ff, picture.colours[15 * 40 + 30] = 0xff00ff00;
+    EXPECT_EQ(errors_of(truth, picture).size(), 2u);
+    for (double error : errors_of(truth, picture)) EXPECT_GT(error, 0.1);
+    EXPECT_EQ(errors_of(truth, truth), std::vector<double>(1, 0.0));
+    EXPECT_DOUBLE_EQ(differing_share(truth, picture), 2.0 / 1200);
+    EXPECT_EQ(differing_share(truth, truth), 0);
 }
 
 BakeReport report_of(double unseen, double holes) {
@@ -95,6 +75,10 @@ Flown flown() {
     plants.name = "sunflowers";
     plants.paper = report_of(0.15, 0.08), plants.own = report_of(0.019, 0.004);
     plants.paper.density_corner = 0.2;
+    Way one{"one LDI", 5000, 9000, {{0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 5000, 2}}};
+    one.rows.push_back({4, 2, 0.5, 0.875, 0.25, 0.25, 0.125, 0.0625, 0.03125, 0, 5000, 3});
+    plants.figure_2.ways = {one,
+                            {"8 tiles", 7000, 14000, {{4, 2, 0.375, 0.75, 0.5, 0.0625, 0.03125, 0, 0.25, 0.015625, 6000, 4}}}};
     flown.plants.push_back(std::move(plants));
     return flown;
 }
@@ -128,9 +112,14 @@ TEST(Page, HoldsATableOfEveryPlantsAndNoMoreThanWasMeasured) {
     Flown one = flown();
     one.plants[0].own.images->levels[0].own.reset();
     std::vector<Chart> charts = charts_of(one);
-    EXPECT_EQ(charts.size(), 2u);
+    EXPECT_EQ(charts.size(), 3u);
+    EXPECT_EQ(figure_2_csv(one).substr(figure_2_csv(one).find('\n') + 1),
+              "sunflowers,\"one LDI\",0,1,0,0,0,0,0,0,0,0,5000,2,5000,9000\n"
+              "sunflowers,\"one LDI\",4,2,0.5,0.875,0.25,0.25,0.125,0.0625,0.03125,0,5000,3,5000,9000\n"
+              "sunflowers,\"8 tiles\",4,2,0.375,0.75,0.5,0.0625,0.03125,0,0.25,0.015625,6000,4,7000,14000\n");
     std::string page = wang_page_html({one, {}, charts, false});
-    for (const char* part : {"Figure 2: sunflowers", "not measured", "gnuplot was not installed", "a single tile"})
+    for (const char* part :
+         {"Figure 2: sunflowers", "not measured", "gnuplot was not installed", "a single tile", "beyond its rim, %", "8 tiles"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_EQ(page.find("Glossy plants"), std::string::npos);
     one.plants[0].gloss = report_of(0, 0), one.plants[0].gloss_none = report_of(0, 0);

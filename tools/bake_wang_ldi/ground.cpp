@@ -41,8 +41,11 @@ std::string tiles_in_words(const wang_ldi::SetOptions& set) {
 void add_ground_options(CLI::App& app, GroundArgs& args) {
     app.add_option("RECIPE", args.recipe, "What is planted and how (TOML): models, radii, shares, the tile's size")->required();
     app.add_option("-o,--output", args.output, "The baked file (.ovl)")->required();
-    app.add_option("--only", args.only, "planting: the set of tiles and where everything stands, and no more")
-        ->check(CLI::IsMember({"planting"}));
+    app.add_option(
+           "--only", args.only,
+           "planting: the set of tiles and where everything stands, and no more. scene: besides, no images of the tiles but one "
+           "perspective image of a whole ground of them, and pictures of it by rays (see --scene-tiles and on)")
+        ->check(CLI::IsMember({"planting", "scene"}));
     app.add_option("--tiles", args.tiles,
                    "In place of the recipe's. 8, 12, 16 or more: the least periodic set of so many, found by search; 1: one that "
                    "repeats; robinson: the aperiodic 16; corners: a tile for every four corners");

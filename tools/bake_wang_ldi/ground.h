@@ -10,12 +10,13 @@
 
 namespace overlook::wang_ldi {
 struct ImageReport;
-}
+struct SceneMade;
+}  // namespace overlook::wang_ldi
 namespace overlook::bake_wang_ldi {
 
 struct GroundArgs {
     std::string recipe, output;
-    std::string only;             // "planting": no images of the tiles
+    std::string only;             // "planting", "scene": no images of the tiles
     std::string tiles, planting;  // in place of the recipe's; empty: that
     bool has_seed = false;        // --seed in place of the recipe's
     bool has_borders = false;
@@ -40,8 +41,8 @@ Result<GroundDone> make_ground(const GroundArgs& args, const command::Common& co
 // Whence the file is: options that decide its bytes, the recipe and the models.
 Result<container::Provenance> provenance_of(const GroundArgs& args, const GroundDone& done);
 
-// JSON on stdout, or lines on stderr. images: of the second step, or null.
+// JSON on stdout, or lines on stderr. images, scene: of the second step, or null; of the scene's image, how many bytes it takes.
 void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t bytes, const wang_ldi::ImageReport* images,
-                   const command::Common& common);
+                   const wang_ldi::SceneMade* scene, uint64_t scene_bytes, const command::Common& common);
 
 }  // namespace overlook::bake_wang_ldi

@@ -131,23 +131,6 @@ Result<void> check_reach(const std::string& path, const rays::Mesh& mesh, float 
                      path, reach_m, tight_radius_m);
 }
 
-Result<wang_ldi::Models> read_models(const GroundDone& ground, const ImageArgs& args, wang_ldi::TrimReport& trimmed) {
-    wang_ldi::ModelOptions options;
-    options.leaf_transmission = float(args.leaf_transmission), options.trims_leaves = args.leaves == "trimmed";
-    wang_ldi::Models models;
-    for (size_t m = 0; m < ground.recipe.files.size(); ++m) {
-        const std::string& path = ground.recipe.files[m];
-        options.roughness = ground.recipe.roughness[m], options.metallic = ground.recipe.metallic[m];
-        auto file = mesh::open_mesh(path);
-        if (!file) return tl::unexpected(file.error());
-        if (auto added = wang_ldi::add_model(file->mesh, options, models, &trimmed); !added)
-            return tl::unexpected(Error{added.error().exit, path + ": " + added.error().message});
-        float tight_radius_m = ground.ground.planting.models[m].tight_radius_m;
-        if (auto fits = check_reach(path, models.meshes.back(), tight_radius_m); !fits) return tl::unexpected(fits.error());
-    }
-    return models;
-}
-
 // "2/5": part 1 of 5.
 bool parse_part(const std::string& text, uint64_t& part, uint64_t& count) {
     const char *at = text.data(), *end = at + text.size();
@@ -169,6 +152,23 @@ bool parse_texture_side(const std::string& text, uint32_t& side_px) {
 }
 
 }  // namespace
+
+Result<wang_ldi::Models> read_models(const GroundDone& ground, const ImageArgs& args, wang_ldi::TrimReport& trimmed) {
+    wang_ldi::ModelOptions options;
+    options.leaf_transmission = float(args.leaf_transmission), options.trims_leaves = args.leaves == "trimmed";
+    wang_ldi::Models models;
+    for (size_t m = 0; m < ground.recipe.files.size(); ++m) {
+        const std::string& path = ground.recipe.files[m];
+        options.roughness = ground.recipe.roughness[m], options.metallic = ground.recipe.metallic[m];
+        auto file = mesh::open_mesh(path);
+        if (!file) return tl::unexpected(file.error());
+        if (auto added = wang_ldi::add_model(file->mesh, options, models, &trimmed); !added)
+            return tl::unexpected(Error{added.error().exit, path + ": " + added.error().message});
+        float tight_radius_m = ground.ground.planting.models[m].tight_radius_m;
+        if (auto fits = check_reach(path, models.meshes.back(), tight_radius_m); !fits) return tl::unexpected(fits.error());
+    }
+    return models;
+}
 
 void add_image_options(CLI::App& app, ImageArgs& args) {
     add_cell_options(app, args);
@@ -223,7 +223,7 @@ Result<wang_ldi::ImageReport> add_images(container::Writer& writer, const Ground
 
 void add_image_options_in_words(const ImageArgs& args, container::Provenance& provenance) {
     auto add = [&](const char* name, const std::string& value) { provenance.options.emplace_back(name, value); };
-    add("constants", args.constants), add("light", args.light);
+    add("constants", args.constants);
     add("view", fmt::format("{} px, {} deg, {} px allowed", args.height_px, args.fov_y_deg, args.error_px));
     add("eyes", fmt::format("{} to {} m up, {} to {} m away", args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m));
     add("level-ratio", fmt::format("{}", args.level_ratio)), add("direction-px", fmt::format("{}", args.direction_px));
@@ -231,6 +231,13 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
     add("textures", args.textures);
     if (args.textures != "none") add("texture-error", fmt::format("{}", args.texture_error));
+    if (args.has_border_images) add("border-images", "true");
+    add_light_options_in_words(args, provenance);
+}
+
+void add_light_options_in_words(const ImageArgs& args, container::Provenance& provenance) {
+    auto add = [&](const char* name, const std::string& value) { provenance.options.emplace_back(name, value); };
+    add("light", args.light);
     if (args.light == "baked")
         add("sun", fmt::format("heading {} deg, elevation {} deg, {} rays, sky {} rays", args.sun_heading_deg,
                                args.sun_elevation_deg, args.sun_rays, args.sky_rays));
@@ -239,7 +246,6 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     auto instructions = args.instructions == "everywhere" ? rays::Instructions::everywhere : rays::Instructions::best;
     add("instructions", std::string(rays::name_of(instructions)));
     if (args.leaves != ImageArgs().leaves) add("leaves", args.leaves);
-    if (args.has_border_images) add("border-images", "true");
     if (args.ray_memory_bytes != ImageArgs().ray_memory_bytes) add("ray-memory", fmt::format("{}", args.ray_memory_bytes));
 }
 

@@ -32,12 +32,18 @@ void add_image_options(CLI::App& app, ImageArgs& args);
 // What is to be baked. Fails with Exit::bad_command: "--part 5/3: K/N is wanted, K from 1 to N".
 Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::string& output, uint64_t seed);
 
+// The recipe's models; what was trimmed of them is added to `trimmed`. Fails as their readers.
+Result<wang_ldi::Models> read_models(const GroundDone& ground, const ImageArgs& args, wang_ldi::TrimReport& trimmed);
+
 // Reads the recipe's models and adds the images' sections to the file.
 Result<wang_ldi::ImageReport> add_images(container::Writer& writer, const GroundDone& ground, const ImageArgs& args,
                                          const wang_ldi::ImageBake& bake, const command::Common& common);
 
 // What of the options decides the bytes, as words.
 void add_image_options_in_words(const ImageArgs& args, container::Provenance& provenance);
+
+// Those of light, models and rays alone.
+void add_light_options_in_words(const ImageArgs& args, container::Provenance& provenance);
 
 // A JSON object as text.
 std::string images_json(const wang_ldi::ImageReport& report);

@@ -2,6 +2,7 @@
 
 #include "tools/bake_wang_ldi/ground.h"
 #include "tools/bake_wang_ldi/images.h"
+#include "tools/bake_wang_ldi/scene.h"
 
 namespace overlook::bake_wang_ldi {
 namespace {
@@ -74,11 +75,12 @@ ordered_json planting_json(const GroundDone& done) {
 }  // namespace
 
 void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t bytes, const wang_ldi::ImageReport* images,
-                   const command::Common& common) {
+                   const wang_ldi::SceneMade* scene, uint64_t scene_bytes, const command::Common& common) {
     if (common.json) {
         ordered_json json{{"file", args.output}, {"tiles", tiles_json(done)}, {"planting", planting_json(done)}, {"bytes", bytes},
                           {"set_s", done.set_s}, {"plant_s", done.plant_s},   {"measure_s", done.measure_s}};
         if (images) json["images"] = ordered_json::parse(images_json(*images));
+        if (scene) json["scene"] = ordered_json::parse(scene_json(*scene, scene_bytes));
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
         return;
     }
@@ -112,6 +114,7 @@ void report_ground(const GroundArgs& args, const GroundDone& done, uint64_t byte
     command::detail(common,
                     fmt::format("set {:.2f} s, planting {:.2f} s, measuring {:.2f} s", done.set_s, done.plant_s, done.measure_s));
     if (images) say_images(*images, common);
+    if (scene) say_scene(*scene, scene_bytes, common);
 }
 
 }  // namespace overlook::bake_wang_ldi

@@ -34,12 +34,12 @@ std::vector<Kept> kept_of(const ImageSet& set, uint32_t level, const Sampled& sa
     return kept;
 }
 
+}  // namespace
+
 std::array<int8_t, 2> code_of_normal(const glm::vec3& normal) {
     glm::dvec2 at = caveclod::octahedral_of(normal);
     return {int8_t(std::lround(at.x * 127)), int8_t(std::lround(at.y * 127))};
 }
-
-}  // namespace
 
 Wedge wedge_of(const ImageSet& set, uint32_t level, uint32_t direction) {
     Wedge wedge;

@@ -5,33 +5,16 @@
 #include <limits>
 
 #include "runtime/view/flip.h"
+#include "runtime/view/picture_rays.h"
 #include "runtime/wang_ldi/hole_fill.h"
 #include "runtime/wang_ldi/random.h"
 #include "tools/bake/wang_ldi/assemble.h"
+#include "tools/bake/wang_ldi/picture_blocks.h"
 
 namespace overlook::wang_ldi {
 namespace {
 
 constexpr uint64_t kViewStream = 31, kTruthStream = 32;
-constexpr uint32_t kBlock = 4;  // rays of 4 x 4 pixels go together
-
-rays::Ray ray_of(const view::Camera& camera, const view::Axes& axes, uint32_t column, uint32_t row) {
-    double focal = view::focal_px(camera);
-    glm::dvec3 along = axes.forward + axes.right * ((column + 0.5 - camera.width_px * 0.5) / focal) +
-                       axes.up * ((camera.height_px * 0.5 - row - 0.5) / focal);
-    return {glm::vec3(camera.position_m), glm::vec3(along)};  // distances along it are depths
-}
-
-// All pixels of a picture, block by block.
-std::vector<uint32_t> pixels_by_block(uint32_t width, uint32_t height) {
-    std::vector<uint32_t> pixels;
-    pixels.reserve(size_t(width) * height);
-    for (uint32_t top = 0; top < height; top += kBlock)
-        for (uint32_t left = 0; left < width; left += kBlock)
-            for (uint32_t y = top; y < std::min(top + kBlock, height); ++y)
-                for (uint32_t x = left; x < std::min(left + kBlock, width); ++x) pixels.push_back(y * width + x);
-    return pixels;
-}
 
 uint32_t code_of(const glm::vec3& colour) {
     return uint32_t(srgb_from_linear(colour.r)) | uint32_t(srgb_from_linear(colour.g)) << 8 |
@@ -115,10 +98,11 @@ Truth traced(const Models& models, const TraceStage& stage, const ImageSet& set,
     Truth truth;
     truth.tile.clear(camera.width_px, camera.height_px);
     truth.hidden_m.assign(truth.tile.colours.size(), std::numeric_limits<float>::infinity());
-    view::Axes axes = view::axes_of(camera);
+    view::PictureRays sight(camera);
     std::vector<uint32_t> pixels = pixels_by_block(camera.width_px, camera.height_px);
-    std::vector<rays::Ray> rays;
-    for (uint32_t p : pixels) rays.push_back(ray_of(camera, axes, p % camera.width_px, p / camera.width_px));
+    std::vector<rays::Ray> rays;  // distances along them are depths
+    for (uint32_t p : pixels)
+        rays.push_back({glm::vec3(sight.eye_m), glm::vec3(sight.through_pixel(p % camera.width_px, p / camera.width_px))});
     std::vector<rays::Hit> hits(rays.size());
     stage.scene.first_hits(rays, hits);
     for (size_t i = 0; i < hits.size(); ++i) {
@@ -182,13 +166,6 @@ Judgement judged(const Models& models, const TraceStage& stage, const ImageSet& 
         compare_pictures(truth, picture, filled, pixel_m, judgement);
     }
     return judgement;
-}
-
-ImageRgb8 picture_of(const Warped& warped) {
-    ImageRgb8 image{warped.width_px, warped.height_px, {}};
-    for (uint32_t colour : warped.colours)
-        for (int shift : {0, 8, 16}) image.pixels.push_back(colour == 0 ? 128 : uint8_t(colour >> shift & 0xff));
-    return image;
 }
 
 }  // namespace overlook::wang_ldi

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/image.h"
 #include "formats/wang_ldi.h"
 #include "runtime/view/camera.h"
 #include "runtime/wang_ldi/warp.h"
@@ -70,8 +69,5 @@ uint32_t views_of(const ImageSet& set, const Which& which, uint32_t all, uint32_
 
 Judgement judged(const Models& models, const TraceStage& stage, const ImageSet& set, const Which& which, const Ldi& ldi,
                  const Light& light, const Judging& judging);
-
-// For the eye: nothing becomes the background's grey.
-ImageRgb8 picture_of(const Warped& warped);
 
 }  // namespace overlook::wang_ldi

@@ -8,6 +8,7 @@
 // count; what is met by one eye counts as met once, however many of its rays meet it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -67,12 +68,15 @@ Sampled sampled(const Models& models, std::span<const TraceStage> stages, const 
 double unseen_of_held_out(std::span<const TraceStage> stages, const Wedge& wedge, const Sampled& of, uint64_t rays,
                           uint64_t seed);
 
+// The `index`-th point of a sequence (an additive recurrence) that fills the unit cube evenly however many there are.
+std::array<double, 3> evenly_spread(uint64_t seed, uint64_t index);
+
 // An eye, with the rays of its raster that pass the tile's box.
 struct Eye {
     glm::vec3 at_m{0};
     std::vector<rays::Ray> rays;  // farthest: where they leave the box; along: of length 1
 };
-// Makes `eye` the `index`-th of a sequence that fills the wedge evenly (an additive recurrence), its rays jittered (R. L. Cook,
+// Makes `eye` the `index`-th of a sequence that fills the wedge evenly, its rays jittered (R. L. Cook,
 // Stochastic Sampling in Computer Graphics, 1986), in blocks of 4 x 4. What it was before does not matter.
 void set_eye(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye, Eye& eye);
 

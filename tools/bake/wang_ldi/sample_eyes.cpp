@@ -11,19 +11,6 @@ namespace {
 constexpr uint64_t kShiftStream = 11, kJitterStream = 12;
 constexpr double kWidestTangent = 4;  // of a raster to any side, where the eye is so near that the box is all around
 
-// Fractions of a point of the sequence n * (1 / g, 1 / g^2, 1 / g^3), g the real root of g^4 = g + 1: evenly spread however many.
-std::array<double, 3> spread(uint64_t seed, uint64_t index) {
-    constexpr double kRoot = 1.2207440846057596;
-    std::array<double, 3> at;
-    double step = 1;
-    for (size_t axis = 0; axis < 3; ++axis) {
-        step /= kRoot;
-        double place = Random(seed, kShiftStream + 8 * axis).next_unit() + double(index + 1) * step;
-        at[axis] = place - std::floor(place);
-    }
-    return at;
-}
-
 // Tangents that the box's corners span from the eye, in the eye's own axes.
 struct Frame {
     glm::dvec3 right, up, forward;
@@ -72,6 +59,19 @@ bool clip(const Wedge& wedge, const glm::dvec3& from, const glm::dvec3& along, d
 
 }  // namespace
 
+// Fractions of n * (1 / g, 1 / g^2, 1 / g^3), g the real root of g^4 = g + 1.
+std::array<double, 3> evenly_spread(uint64_t seed, uint64_t index) {
+    constexpr double kRoot = 1.2207440846057596;
+    std::array<double, 3> at;
+    double step = 1;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        step /= kRoot;
+        double place = Random(seed, kShiftStream + 8 * axis).next_unit() + double(index + 1) * step;
+        at[axis] = place - std::floor(place);
+    }
+    return at;
+}
+
 glm::vec3 middle_eye_m(const Wedge& wedge) {
     double distance = std::sqrt(wedge.nearest_m * wedge.farthest_m);
     return glm::vec3(glm::dvec3(wedge.tile_m / 2 + distance * std::sin(wedge.heading_rad),
@@ -80,7 +80,7 @@ glm::vec3 middle_eye_m(const Wedge& wedge) {
 }
 
 void set_eye(const Wedge& wedge, uint64_t seed, uint64_t index, uint32_t rays_per_eye, Eye& eye) {
-    std::array<double, 3> at = spread(seed, index);
+    std::array<double, 3> at = evenly_spread(seed, index);
     double heading = wedge.heading_rad + (2 * at[0] - 1) * wedge.half_width_rad;
     double distance = wedge.nearest_m * std::pow(wedge.farthest_m / wedge.nearest_m, at[1]);
     glm::dvec3 from(wedge.tile_m / 2 + distance * std::sin(heading), wedge.tile_m / 2 + distance * std::cos(heading),

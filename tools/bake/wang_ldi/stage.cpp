@@ -68,6 +68,15 @@ std::vector<rays::Copy> copies_of(const TileSet& set, const Planting& planting, 
     return copies;
 }
 
+std::vector<rays::Copy> copies_of_ground(const Planting& planting, std::span<const uint8_t> tiles, uint32_t columns) {
+    std::vector<rays::Copy> copies;
+    for (size_t t = 0; t < tiles.size(); ++t)
+        for (const Planted& object : planting.tiles[tiles[t]])
+            copies.push_back(
+                copy_of(object, double(t % columns) * planting.tile_size_m, double(t / columns) * planting.tile_size_m));
+    return copies;
+}
+
 Result<TraceStage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes,
                             rays::Instructions instructions) {
     bool fits = rays::flattened_bytes(models.meshes, copies) <= memory_bytes;

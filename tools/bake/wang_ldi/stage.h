@@ -33,6 +33,9 @@ inline std::array<int, 9> alone(size_t tile) {
 // The middle tile's own objects and its overhang, which are the same whatever the neighbours, then the neighbours' other ones.
 std::vector<rays::Copy> copies_of(const TileSet& set, const Planting& planting, const std::array<int, 9>& tiles);
 
+// Everything that stands on a rectangle of tiles, [rows, columns] from the south-west, whose corner is at the origin.
+std::vector<rays::Copy> copies_of_ground(const Planting& planting, std::span<const uint8_t> tiles, uint32_t columns);
+
 // Flattened where that takes at most memory_bytes, else as instances. Fails as rays::Scene::build. models must outlive it.
 Result<TraceStage> stage_of(const Models& models, std::vector<rays::Copy> copies, uint64_t memory_bytes,
                             rays::Instructions instructions = rays::Instructions::best);

@@ -23,18 +23,17 @@ Chart density(const std::string& plants) {
     return chart;
 }
 
-Chart breaking(const std::string& plants) {
-    Chart chart{"one-ldi-" + plants, "One LDI of " + plants + ", seen from aside", chart_head(2)};
-    chart.script +=
-        x_label("metres aside of its middle") +
-        "set datafile missing NaN\nset xrange [0:*]\nset yrange [0:*]\nset ylabel '% of the pixels that show a plant'\n";
-    for (int column : {3, 4})
+// One line a way of drawing the ground.
+Chart away(const Plants& plants, const char* name, const std::string& title, const std::string& y_label, int column, int times) {
+    Chart chart{name + ("-" + plants.name), title, chart_head(plants.figure_2.ways.size())};
+    chart.script += x_label("metres from the place of the one LDI") +
+                    "set datafile missing NaN\nset xrange [0:*]\nset yrange [0:*]\nset ylabel '" + y_label + "'\n";
+    for (size_t w = 0; w < plants.figure_2.ways.size(); ++w)
         chart.script += fmt::format(
-            "{}'../one-ldi.csv' skip 1 using (strcol(1) eq {} ? $2 : NaN):(100*${}) with linespoints lc rgb \"{}\" lw 2 pt 7 ps "
-            "0.6 "
-            "title '{}'{}",
-            column == 3 ? "plot " : "", gnuplot_text(plants), column, chart_colour(size_t(column - 3)),
-            column == 3 ? "nothing is there" : "something too near or too far", column == 3 ? ", \\\n" : "\n");
+            "{}'../figure-2.csv' skip 1 using (strcol(1) eq {} && strcol(2) eq {} ? $3 : NaN):({}*${}) with linespoints lc rgb "
+            "\"{}\" lw 2 pt 7 ps 0.6 title {}{}",
+            w == 0 ? "plot " : "", gnuplot_text(plants.name), gnuplot_text(plants.figure_2.ways[w].name), times, column,
+            chart_colour(w), gnuplot_text(plants.figure_2.ways[w].name), w + 1 < plants.figure_2.ways.size() ? ", \\\n" : "\n");
     return chart;
 }
 
@@ -42,7 +41,13 @@ Chart breaking(const std::string& plants) {
 
 std::vector<Chart> charts_of(const Flown& flown) {
     std::vector<Chart> charts;
-    for (const Plants& plants : flown.plants) charts.push_back(density(plants.name)), charts.push_back(breaking(plants.name));
+    for (const Plants& plants : flown.plants) {
+        charts.push_back(density(plants.name));
+        if (plants.figure_2.ways.empty()) continue;
+        charts.push_back(away(plants, "away-e", plants.name + " seen from away: E beside rays", "E (LDR-FLIP), mean", 5, 1));
+        charts.push_back(
+            away(plants, "away-holes", plants.name + " seen from away: holes", "% of the pixels that show a plant", 8, 100));
+    }
     for (const Plants& plants : flown.plants)
         for (Chart& chart : charts_of_fields(plants)) charts.push_back(std::move(chart));
     return charts;

@@ -1,7 +1,7 @@
 // One image for every side, of which what faces away is skipped, beside one for each of eight sides.
 #pragma once
 
-#include "tools/measure/paper/wang_ldi/one_ldi.h"
+#include "tools/measure/paper/wang_ldi/broken.h"
 #include "tools/measure/paper/wang_ldi/subject.h"
 
 namespace overlook::measure::paper::wang {

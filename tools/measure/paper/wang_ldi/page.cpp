@@ -3,6 +3,7 @@
 #include "tools/measure/page_text.h"
 #include "tools/measure/paper/page_parts.h"
 #include "tools/measure/paper/wang_ldi/page_fields.h"
+#include "tools/measure/paper/wang_ldi/page_figure_2.h"
 #include "tools/measure/paper/wang_ldi/targets.h"
 #include "tools/measure/paper/work.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 constexpr char kTable[] = "<div class=\"wide\"><table class=\"runs numbers\">\n<thead>";
 constexpr char kTableEnd[] = "</tbody></table></div>\n";
-constexpr uint32_t kWideFrom_px = 700;  // wider pictures stand alone
 
 struct Row {
     const char* title;
@@ -39,17 +39,6 @@ std::string setup_html(const WangPage& page) {
                   "and planting but not its constants. "
                 : "") +
            machine_html(page.setup) + ". " + command_html(page.setup.command) + "</p>\n";
-}
-
-std::string figures_html(const Plants& plants, int least, int most) {
-    std::string html = "<div class=\"pictures\">\n", wide;
-    for (const Picture& picture : plants.pictures) {
-        if (picture.figure < least || picture.figure > most) continue;
-        std::string figure = picture_html(picture.name, fmt::format("Figure {}: {}", picture.figure, picture.caption),
-                                          picture.image.width, picture.image.height);
-        (picture.image.width > kWideFrom_px ? wide : html) += figure;
-    }
-    return html + "</div>\n" + wide;
 }
 
 std::string charts_html(const WangPage& page, const std::string& name, const std::string& sentence) {
@@ -151,17 +140,17 @@ std::string gloss_html(const Plants& plants) {
 
 std::string plants_html(const WangPage& page, const Plants& plants) {
     std::string name = escaped(plants.name);
-    return "<h2>Figure 2: " + name + "</h2>\n" + figures_html(plants, 2, 2) +
-           charts_html(
-               page, "one-ldi-" + plants.name,
-               "Beside the tiles themselves, drawn from the same place. One LDI is put together from what twelve eyes within "
-               "0.3 m see.") +
-           "<p class=\"note\"><a href=\"one-ldi.csv\">one-ldi.csv</a></p>\n<h2>Figures 3 and 4: which tiles, and what repeats, " +
-           name + "</h2>\n" + periodicity_html(plants) + figures_html(plants, 3, 4) + "<h2>Figures 5 and 6: planting, " + name +
+    auto chart = [&](const char* which, const std::string& sentence) {
+        return charts_html(page, which + ("-" + plants.name), sentence);
+    };
+    return "<h2>Figure 2: " + name + "</h2>\n" + figure_2_html(plants.figure_2) +
+           chart("away-e", "Beside rays of the same ground from the same eye; small holes filled.") +
+           chart("away-holes", "Before any are filled.") + "<h2>Figures 3 and 4: which tiles, and what repeats, " + name +
+           "</h2>\n" + periodicity_html(plants) + figures_html(plants.pictures, 3, 4) + "<h2>Figures 5 and 6: planting, " + name +
            "</h2>\n" + planting_html(plants) +
            charts_html(page, "density-" + plants.name, "1: as densely as anywhere. Steps are few objects wide.") +
-           figures_html(plants, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" + levels_html(plants) +
-           directions_html(plants) + gloss_html(plants) + figures_html(plants, 7, 12);
+           figures_html(plants.pictures, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" +
+           levels_html(plants) + directions_html(plants) + gloss_html(plants) + figures_html(plants.pictures, 7, 12);
 }
 
 }  // namespace

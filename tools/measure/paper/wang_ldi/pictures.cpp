@@ -4,104 +4,16 @@
 #include <numbers>
 
 #include "runtime/wang_ldi/portraits.h"
-#include "runtime/wang_ldi/random.h"
 #include "tools/measure/page_text.h"
 
 namespace overlook::measure::paper::wang {
 namespace {
 
 constexpr uint64_t kSeed = 1;
-constexpr int kEyes = 12;              // that the one LDI is put together from
-constexpr double kEyesWithin_m = 0.3;  // of its camera
-constexpr double kAside_m[] = {0, 0.25, 0.5, 1, 2, 4};
-constexpr double kShownAside_m = 4;  // figure 2b
 constexpr uint32_t kRingTiles = 10, kRingTile_px = 24;
 
 Picture picture(const Plants& plants, int figure, const std::string& name, const std::string& caption, ImageRgb8 image) {
     return {figure, name + "-" + plants.name, caption, std::move(image)};
-}
-
-std::string counted(const WoodCounts& counts) {
-    return fmt::format("{} tiles, {} samples, warped in {} ms by one thread: {} million a second",
-                       short_count(double(counts.tiles)), short_count(double(counts.samples)), short_number(counts.warp_ms),
-                       short_number(double(counts.samples) / std::max(1e-3, counts.warp_ms) / 1000));
-}
-
-view::Camera aside(view::Camera camera, double aside_m) {
-    camera.position_m += view::axes_of(camera).right * aside_m;
-    return camera;
-}
-
-wang_ldi::Warped empty_for(const view::Camera& camera) {
-    wang_ldi::Warped empty;
-    empty.clear(camera.width_px, camera.height_px);
-    return empty;
-}
-
-// Of what eyes about the camera see of the ground by tiles.
-Result<OneLdi> one_of(Wood& wood, const view::Camera& camera) {
-    OneLdi one(camera);
-    wang_ldi::Random random(kSeed);
-    for (int eye = 0; eye < kEyes; ++eye) {
-        view::Camera near = camera;
-        for (int axis = 0; axis < 3 && eye > 0; ++axis) near.position_m[axis] += kEyesWithin_m * (2 * random.next_unit() - 1);
-        wang_ldi::Warped seen = empty_for(near);
-        auto counts = wood.draw(near, seen);
-        if (!counts) return tl::unexpected(counts.error());
-        one.add(near, seen);
-    }
-    return one;
-}
-
-Result<void> add_one_ldi(Wood& wood, const view::Camera& camera, Plants& plants) {
-    auto one = one_of(wood, camera);
-    if (!one) return tl::unexpected(one.error());
-    plants.one_samples = one->sample_count(), plants.one_layers = one->most_layers();
-    for (double aside_m : kAside_m) {
-        view::Camera there = aside(camera, aside_m);
-        wang_ldi::Warped truth = empty_for(there), seen = empty_for(there);
-        if (auto counts = wood.draw(there, truth); !counts) return tl::unexpected(counts.error());
-        one->draw(there, seen);
-        plants.moved.push_back({aside_m, broken_of(truth, seen)});
-        bool is_first = aside_m == 0;
-        if (!is_first && aside_m != kShownAside_m) continue;
-        std::string caption =
-            is_first ? fmt::format("one LDI of the whole scene, {} samples in up to {} layers",
-                                   short_count(double(plants.one_samples)), plants.one_layers)
-                     : fmt::format(
-                           "the same from {} m aside: {} % of what should be there is missing, {} % more is too near or too "
-                           "far",
-                           short_number(aside_m), short_number(100 * plants.moved.back().broken.hole_share),
-                           short_number(100 * plants.moved.back().broken.wrong_share));
-        plants.pictures.push_back(picture(plants, 2, is_first ? "figure-2a" : "figure-2b", caption, with_ground(there, seen)));
-    }
-    return {};
-}
-
-Result<void> add_field(const Bake& bake, const char* name, const std::string& what, WoodCounts& counts, Plants& plants) {
-    auto wood = Wood::make(bake, kSeed);
-    if (!wood) return tl::unexpected(wood.error());
-    view::Camera camera = wood->camera(kWidth_px, kHeight_px);
-    wang_ldi::Warped seen = empty_for(camera);
-    auto drawn = wood->draw(camera, seen);
-    if (!drawn) return tl::unexpected(drawn.error());
-    counts = *drawn;
-    plants.pictures.push_back(picture(plants, 2, name, what + ": " + counted(counts), with_ground(camera, seen)));
-    return {};
-}
-
-Result<void> add_figure_2(const Subject& subject, Plants& plants) {
-    auto wood = Wood::make(subject.paper, kSeed);
-    if (!wood) return tl::unexpected(wood.error());
-    if (auto added = add_one_ldi(*wood, wood->camera(kWidth_px, kHeight_px), plants); !added) return added;
-    if (auto added = add_field(subject.single, "figure-2c", "a single tile that repeats", plants.by_single, plants); !added)
-        return added;
-    std::string tiles = fmt::format("{} tiles, the paper's constants and planting", subject.of_paper.tiles);
-    if (auto added = add_field(subject.paper, "figure-2d", tiles, plants.by_paper, plants); !added) return added;
-    std::string own =
-        fmt::format("{} tiles as Overlook bakes them by itself, for tiles from {} m on (nearer ones are to be geometry)",
-                    subject.of_own.tiles, short_number(subject.own.set().cell.nearest_m));
-    return add_field(subject.own, "figure-2-own", own, plants.by_own, plants);
 }
 
 void add_sheets(const Subject& subject, Plants& plants) {
@@ -190,7 +102,9 @@ Result<Plants> plants_of(const Subject& subject, const std::function<void(double
     plants.paper = subject.of_paper, plants.own = subject.of_own, plants.single = subject.of_single;
     plants.robinson = subject.of_robinson, plants.gloss = subject.gloss, plants.gloss_none = subject.gloss_none;
     plants.paper_size = size_of(subject.paper), plants.own_size = size_of(subject.own);
-    if (auto added = add_figure_2(subject, plants); !added) return tl::unexpected(added.error());
+    auto whole = figure_2(subject);
+    if (!whole) return tl::unexpected(whole.error());
+    plants.figure_2 = std::move(*whole);
     done(0.6);
     if (subject.one && subject.eight) {
         auto directions = compare_directions(*subject.one, *subject.eight, kSeed);

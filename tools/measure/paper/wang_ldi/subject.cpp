@@ -25,6 +25,21 @@ Result<void> open(const std::string& path, Bake& bake) {
     return {};
 }
 
+Result<void> read_scene_of(const std::string& path, const Bake& bake, SceneFile& into) {
+    auto file = container::Reader::open(path);
+    if (!file) return tl::unexpected(file.error());
+    auto ground = wang_ldi::read(*file);
+    if (!ground) return tl::unexpected(ground.error());
+    auto scene = wang_ldi::read_scene(*file, uint32_t(ground->set.tiles.size()));
+    if (!scene) return tl::unexpected(scene.error());
+    if (!(ground->set == bake.ground.set) || !(ground->planting == bake.ground.planting))
+        return bad_input("{}: is of other ground than {}", path, bake.path);
+    if (scene->image.is_unlit || scene->pictures.empty())
+        return bad_input("{}: is unlit or has no pictures by rays; bake it without --light later and --scene-views 0", path);
+    into = {path, std::move(*scene), wang_ldi::stored_bytes_of_scene_image(*file)};
+    return {};
+}
+
 Result<void> read_report_of(const std::string& path, const Bake* bake, BakeReport& into) {
     auto report = read_report(path);
     if (!report) return tl::unexpected(report.error());
@@ -72,6 +87,9 @@ Result<Subject> read_subject(const std::string& folder) {
     if (done) done = read_report_of(at("own.json"), &subject.own, subject.of_own);
     if (done) done = read_report_of(at("single.json"), &subject.single, subject.of_single);
     if (done) done = read_report_of(at("robinson.json"), nullptr, subject.of_robinson);
+    if (done) done = read_scene_of(at("scene.ovl"), subject.paper, subject.scene);
+    if (done) done = read_scene_of(at("single-scene.ovl"), subject.single, subject.single_scene);
+    if (done) done = read_scene_of(at("own-scene.ovl"), subject.own, subject.own_scene);
     for (auto [name, report] : {std::pair("gloss.json", &subject.gloss), std::pair("gloss-none.json", &subject.gloss_none)})
         if (done && std::filesystem::exists(at(name))) done = read_report_of(at(name), nullptr, report->emplace());
     if (done) done = read_sheet(at("sheet"), subject.sheet);

@@ -68,11 +68,12 @@ std::string planting_csv(const Flown& flown) {
     return csv;
 }
 
-std::string one_ldi_csv(const Flown& flown) {
-    std::string csv = "plants,aside_m,hole_share,wrong_share\n";
-    for (const Plants& plants : flown.plants)
-        for (const Moved& moved : plants.moved)
-            csv += fmt::format("{},{},{},{}\n", plants.name, moved.aside_m, moved.broken.hole_share, moved.broken.wrong_share);
+std::string figure_2_csv(const Flown& flown) {
+    std::string csv =
+        "plants,way,away_m,views,e_mean_flip,e_p99_flip,unfilled_e_mean_flip,hole_share,filled_hole_share,beyond_rim_share,wrong_"
+        "share,order_share,"
+        "samples_warped,warp_ms,samples,bytes\n";
+    for (const Plants& plants : flown.plants) csv += figure_2_csv(plants.name, plants.figure_2);
     return csv;
 }
 

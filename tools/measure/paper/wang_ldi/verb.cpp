@@ -17,10 +17,10 @@ Result<void> deliver(const Flown& flown, const RunSetup& setup, const PaperOptio
     leavings.tables = {{"sets.csv", sets_csv(flown)},
                        {"levels.csv", levels_csv(flown)},
                        {"planting.csv", planting_csv(flown)},
-                       {"one-ldi.csv", one_ldi_csv(flown)},
+                       {"figure-2.csv", figure_2_csv(flown)},
                        {"fields.csv", fields_csv(flown)}};
     for (const Plants& plants : flown.plants) {
-        add_pictures(leavings, plants.pictures);
+        add_pictures(leavings, plants.figure_2.pictures), add_pictures(leavings, plants.pictures);
         for (const FlownLand& land : plants.lands) add_pictures(leavings, land.pictures);
     }
     leavings.charts = charts_of(flown);
@@ -68,10 +68,12 @@ CLI::App* add_verb(CLI::App& app, PaperOptions& options) {
     CLI::App& verb = *app.add_subcommand("wang-ldi",
                                          "The paper on tiling layered depth images: its figures as pictures, tables, charts and "
                                          "a page; section 6 flown over the folders' scenes");
-    verb.add_option("folder", options.folders,
-                    "Baked plants, as make -C pipelines wang-ldi bakes them: paper.ovl, own.ovl, single.ovl, unlit.ovl, what "
-                    "--json said of them, robinson.json, sheet and sheet-own; and, where they are there, one.ovl and eight.ovl, "
-                    "planting.json and valley.json with what these name; several")
+    verb.add_option(
+            "folder", options.folders,
+            "Baked plants, as make -C pipelines wang-ldi bakes them: paper.ovl, own.ovl, single.ovl, unlit.ovl, scene.ovl, "
+            "own-scene.ovl, single-scene.ovl, what "
+            "--json said of them, robinson.json, sheet and sheet-own; and, where they are there, one.ovl and eight.ovl, "
+            "planting.json and valley.json with what these name; several")
         ->required()
         ->type_name("FOLDER");
     verb.add_option("--size", options.size, "Of the pictures of section 6's flights")->type_name("WxH")->capture_default_str();

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 
 #include "runtime/gl/timer.h"
+#include "runtime/view/picture_rays.h"
 #include "tools/measure/paper/wang_ldi/one_direction.h"
 
 namespace overlook::measure::paper::wang {
@@ -43,17 +45,14 @@ std::array<uint8_t, 3> hue_of(double share, double value) {
 
 Result<Wood> Wood::make(const Bake& bake, uint64_t seed) {
     Wood wood(bake);
-    wang_ldi::TilingOptions options;
-    options.seed = seed, options.avoids_equal_neighbours = bake.ground.set.tiles.size() > 1;
-    auto tiling = wang_ldi::tile_row_by_row(bake.ground.set, kSide, kSide, options);
-    if (!tiling && options.avoids_equal_neighbours) {  // as the paper: equal tiles may meet
-        options.avoids_equal_neighbours = false;
-        tiling = wang_ldi::tile_row_by_row(bake.ground.set, kSide, kSide, options);
-    }
+    auto tiling = wang_ldi::tile_square(bake.ground.set, kSide, seed);
     if (!tiling) return tl::unexpected(Error{tiling.error().exit, bake.path + ": " + tiling.error().message});
     wood.tiling_ = std::move(*tiling);
     return wood;
 }
+
+Wood::Wood(const Bake& bake, const wang_ldi::Scene& scene)
+    : bake_(&bake), radius_m_(std::numeric_limits<double>::infinity()), tiling_{scene.columns, scene.rows, scene.tiles} {}
 
 view::Camera Wood::camera(uint32_t width_px, uint32_t height_px) const {
     view::Camera camera;
@@ -64,7 +63,7 @@ view::Camera Wood::camera(uint32_t width_px, uint32_t height_px) const {
     return camera;
 }
 
-Result<WoodCounts> Wood::draw(const view::Camera& camera, wang_ldi::Warped& picture) {
+Result<WoodCounts> Wood::draw(const view::Camera& camera, wang_ldi::Warped& picture, wang_ldi::Hiding hiding) {
     double tile_m = set().tile_m, radius_m = std::hypot(tile_m * 0.75, (set().high_m - set().low_m) / 2 + tile_m / 4);
     std::array<glm::dvec3, 4> sides = view::sides_of(camera);
     std::vector<wang_ldi::Drawn> drawn;
@@ -75,7 +74,7 @@ Result<WoodCounts> Wood::draw(const view::Camera& camera, wang_ldi::Warped& pict
             glm::dvec2 middle = middle_m(column, row), from_middle = glm::dvec2(camera.position_m) - middle;
             double distance_m = glm::length(from_middle);
             glm::dvec3 inside(middle, (set().low_m + set().high_m) / 2);
-            if (distance_m > kRadius_tiles * tile_m || !is_in_sight(camera, sides, inside, radius_m)) continue;
+            if (distance_m > radius_m_ || !is_in_sight(camera, sides, inside, radius_m)) continue;
             uint32_t level = level_for(set(), distance_m);
             uint64_t index =
                 index_of(set(), {0, tiling_.at(column, row), level, distance_m > 0 ? direction_for(set(), from_middle) : 0});
@@ -94,7 +93,7 @@ Result<WoodCounts> Wood::draw(const view::Camera& camera, wang_ldi::Warped& pict
         }
     order_of_tiles(camera.position_m, tile_m, drawn);
     gl::Timer timer;
-    warp(camera, set(), drawn, wang_ldi::Hiding::by_order, picture);
+    warp(camera, set(), drawn, hiding, picture);
     counts.warp_ms = timer.elapsed_ms(), counts.tiles = drawn.size();
     counts.pixels = uint64_t(picture.colours.size()) - uint64_t(std::count(picture.colours.begin(), picture.colours.end(), 0u));
     return counts;
@@ -120,14 +119,12 @@ ImageRgb8 Wood::rings(const view::Camera& camera, uint32_t tiles, uint32_t tile_
 }
 
 ImageRgb8 with_ground(const view::Camera& camera, const wang_ldi::Warped& picture) {
-    view::Axes axes = view::axes_of(camera);
-    double focal = view::focal_px(camera);
+    view::PictureRays rays(camera);
     ImageRgb8 image{picture.width_px, picture.height_px, {}};
     for (uint32_t y = 0; y < picture.height_px; ++y)
         for (uint32_t x = 0; x < picture.width_px; ++x) {
             uint32_t drawn = picture.colours[size_t(y) * picture.width_px + x];
-            glm::dvec3 along = axes.forward + axes.right * ((x + 0.5 - camera.width_px * 0.5) / focal) +
-                               axes.up * ((camera.height_px * 0.5 - y - 0.5) / focal);
+            glm::dvec3 along = rays.through_pixel(x, y);
             double up = along.z / glm::length(along);
             std::array<uint8_t, 3> colour =
                 up > 0 ? mixed(kHorizon, kZenith, 2 * up) : mixed(kEarth, kHorizon, std::min(1.0, 0.012 / std::max(-up, 1e-6)));

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "formats/wang_scene.h"
 #include "runtime/wang_ldi/tiling.h"
 #include "runtime/wang_ldi/warp.h"
 #include "tools/measure/paper/wang_ldi/subject.h"
@@ -23,15 +24,19 @@ class Wood {
     // As many tiles as a picture from the middle needs. bake must outlive it. Fails as tile_row_by_row.
     static Result<Wood> make(const Bake& bake, uint64_t seed);
 
+    // The scene's own ground, all of which is drawn however far. Both must outlive it.
+    Wood(const Bake& bake, const wang_ldi::Scene& scene);
+
     // In the middle of the ground, an eye of the cell's mean height; pixels as asked.
     view::Camera camera(uint32_t width_px, uint32_t height_px) const;
 
     // From the next picture on: of images with normals, samples that face away from the eye are left out.
     void skip_what_faces_away(bool skips) { skips_ = skips; }
 
-    // Tiles within kRadius_tiles and in sight, back to front, each at its level and direction. Images that are read stay in
-    // memory. Fails as ImageReader::read.
-    Result<WoodCounts> draw(const view::Camera& camera, wang_ldi::Warped& picture);
+    // Tiles within kRadius_tiles (of a scene: all) and in sight, back to front, each at its level and direction. Images that are
+    // read stay in memory. Fails as ImageReader::read.
+    Result<WoodCounts> draw(const view::Camera& camera, wang_ldi::Warped& picture,
+                            wang_ldi::Hiding hiding = wang_ldi::Hiding::by_order);
 
     // The level and direction of every tile within `tiles` of the camera's, level by brightness, direction by hue (figure 7).
     ImageRgb8 rings(const view::Camera& camera, uint32_t tiles, uint32_t tile_px) const;
@@ -39,11 +44,12 @@ class Wood {
     const wang_ldi::ImageSet& set() const { return bake_->set(); }
 
   private:
-    explicit Wood(const Bake& bake) : bake_(&bake) {}
+    explicit Wood(const Bake& bake) : bake_(&bake), radius_m_(kRadius_tiles * bake.set().tile_m) {}
     glm::dvec2 middle_m(uint32_t column, uint32_t row) const { return (glm::dvec2(column, row) + 0.5) * set().tile_m; }
 
     const Bake* bake_;
     bool skips_ = false;
+    double radius_m_;
     wang_ldi::Tiling tiling_;
     std::map<uint64_t, wang_ldi::Ldi> images_;
 };

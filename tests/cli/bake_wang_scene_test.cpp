@@ -1,0 +1,97 @@
+// bake-wang-ldi --only scene: one image of a whole ground, the same bytes whatever threads; one line for options that make no
+// sense.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_command.h"
+#include "tests/formats/scratch_folder.h"
+
+namespace overlook::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+class BakeWangScene : public testing::Test {
+  protected:
+    ScratchFolder folder_;
+
+    void SetUp() override {
+        write_text(folder_ / "post.obj", "v -0.2 0 0\nv 0.2 0 0\nv 0 0 1\nv 0 -0.2 0\nv 0 0.2 0\nv 0 0 0.7\nf 1 2 3\nf 4 5 6\n");
+        write_text(folder_ / "posts.toml",
+                   "tile_size_m = 3\n\n[[model]]\nfile = \"post.obj\"\npacking_radius_m = 0.3\ntight_radius_m = 0.26\n");
+    }
+    Ran bake(const std::string& output, const Words& more) {
+        Words words{"bake-wang-ldi",
+                    folder_ / "posts.toml",
+                    "-o",
+                    folder_ / output,
+                    "--tiles",
+                    "8",
+                    "--sky-rays",
+                    "4",
+                    "--sun-rays",
+                    "2"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    }
+};
+
+TEST_F(BakeWangScene, IsOneImageAndPicturesTheSameBytesWhateverThreads) {
+    Words small{"--only", "scene", "--scene-tiles", "6", "--scene-size", "64x48", "--scene-eyes", "5"};
+    auto with = [&](const Words& more) {
+        Words words = small;
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    Ran ran = bake("a.ovl", with({"--json", "--threads", "1"}));
+    expect_done(ran);
+    nlohmann::json report = nlohmann::json::parse(ran.out)["scene"];
+    EXPECT_EQ(report["tiles_a_side"], 6);
+    EXPECT_EQ(report["pictures"], 13);
+    EXPECT_EQ(report["rays"], 5 * 64 * 48);
+    EXPECT_GT(report["samples"], 300);
+    EXPECT_GT(report["bytes"], 300);
+    EXPECT_GE(report["most_layers"], 2);
+    expect_done(bake("b.ovl", small));
+    EXPECT_TRUE(text_of_file(folder_ / "a.ovl") == text_of_file(folder_ / "b.ovl"));
+    expect_done(run({"baked", "info", folder_ / "a.ovl"}));
+    Ran proof = run({"baked", "verify", folder_ / "a.ovl", "--json"});
+    expect_done(proof);
+    EXPECT_EQ(nlohmann::json::parse(proof.out)["scene_pictures"], 14);
+    Ran all = bake("c.ovl", with({"--json", "--scene-layers", "all", "--light", "later", "--scene-camera", "1,2,1.5,90,-10,50",
+                                  "--scene-near-m", "0.5", "--scene-far-m", "6", "--scene-views", "0"}));
+    expect_done(all);
+    nlohmann::json of_all = nlohmann::json::parse(all.out)["scene"];
+    EXPECT_EQ(of_all["pictures"], 1);
+    EXPECT_EQ(of_all["far_m"], 6);
+    EXPECT_EQ(of_all["rays"], 64 * 48);
+}
+
+TEST_F(BakeWangScene, RefusesWhatMakesNoSenseInALine) {
+    auto before = contents_of(folder_.path());
+    struct Bad {
+        Words words;
+        std::string part;
+    };
+    for (const Bad& bad :
+         {Bad{{"--scene-size", "64"}, "--scene-size 64: WIDTHxHEIGHT is wanted"},
+          Bad{{"--scene-size", "0x48"}, "--scene-size 0x48"}, Bad{{"--scene-size", "64x4097"}, "--scene-size 64x4097"},
+          Bad{{"--scene-camera", "1,2"}, "--scene-camera 1,2: x,y,z,heading,pitch[,fov_y] are wanted"},
+          Bad{{"--scene-camera", "99,0,1,0,0"}, "the eye stands outside of the ground, which is 120 m wide"},
+          Bad{{"--scene-far-m", "0.05"}, "--scene-far-m 0.05: is not beyond --scene-near-m 0.1"},
+          Bad{{"--scene-near-m", "0"}, "--scene-near-m"}, Bad{{"--scene-eyes", "0"}, "--scene-eyes"},
+          Bad{{"--scene-tiles", "1"}, "--scene-tiles"}, Bad{{"--scene-cell-m", "-1"}, "--scene-cell-m"},
+          Bad{{"--scene-cell-m", "nan"}, "--scene-cell-m"}, Bad{{"--scene-merge", "2"}, "--scene-merge"},
+          Bad{{"--scene-layers", "some"}, "--scene-layers"}, Bad{{"--scene-views", "65"}, "--scene-views"}}) {
+        Words words{"--only", "scene"};
+        words.insert(words.end(), bad.words.begin(), bad.words.end());
+        expect_refusal(bake("a.ovl", words), 2, "bake-wang-ldi", {bad.part});
+    }
+    expect_refusal(bake("a.ovl", {"--scene-eyes", "3"}), 2, "bake-wang-ldi", {"--scene-eyes: goes with --only scene"});
+    expect_refusal(bake("a.ovl", {"--only", "scenes"}), 2, "bake-wang-ldi", {"--only"});
+    EXPECT_EQ(contents_of(folder_.path()), before);
+}
+
+}  // namespace
+}  // namespace overlook::cli
