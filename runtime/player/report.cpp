@@ -38,6 +38,7 @@ void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
     json["outside_cell_tiles"] = field.outside_cell;
     json["cut_tiles"] = field.cut_tiles;
     json["displaced_tiles"] = field.displaced_tiles;
+    json["planting_error_px"] = planting.planting_error_px;
     json["near_plants"] = planting.plants.plant_count;
     json["images"] = planting.images.images;
     json["stand_in_images"] = planting.images.stand_ins;

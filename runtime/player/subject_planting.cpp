@@ -95,9 +95,7 @@ Result<std::unique_ptr<Subject>> read_planting(PlantingLayer planting, const Lay
     }
     auto land = wang_ldi::PlantedLand::read(std::move(planting.file), std::move(on), planting.planting, planting.scene_path);
     if (!land) return tl::unexpected(land.error());
-    bool is_none = layer.planting.geometry == wang_ldi::NearGeometry::none;
-    bool is_asked = layer.planting.geometry == wang_ldi::NearGeometry::always || layer.planting.geometry_m > 0;
-    if (!is_none && (is_asked || (*land)->has_models())) {
+    if (layer.planting.has_geometry && (layer.planting.geometry_m > 0 || (*land)->has_models())) {
         if (Result<void> models = (*land)->read_models(); !models) return tl::unexpected(models.error());
     }
     return std::make_unique<PlantingSubject>(std::move(*land), layer,

@@ -7,6 +7,7 @@
 #include "runtime/gl/context.h"
 #include "runtime/terrain/near_plane.h"
 #include "runtime/wang_ldi/plain.h"
+#include "runtime/wang_ldi/tile_error.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -74,7 +75,7 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const PlantedField& plant
     const TextureSet& textures = of_images ? *of_images : *planted.textures();
     if (Result<void> fits = FarImages::check(textures, planted.name()); !fits) return tl::unexpected(fits.error());
     made->far_ = FarImages(textures);
-    Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, 1, made->far_.side_px()));
+    Result<Field> field = Field::of(planted.parts(), field_options_of(set, options, {}, made->far_.side_px()));
     if (!field) return tl::unexpected(field.error());
     return made;
 }
@@ -123,8 +124,8 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     slot.counts = {};
     slot.origin_m = origin_of(land_, camera);
     slot.camera = with_clear_near_plane(*land_.terrain, land_.is_plain, camera);
-    Result<Field> field = Field::of(planted_.parts(), field_options_of(planted_.images().set(), field_options(),
-                                                                       view::focal_px(slot.camera), far_.side_px()));
+    Result<Field> field =
+        Field::of(planted_.parts(), field_options_of(planted_.images().set(), field_options(), slot.camera, far_.side_px()));
     if (!field) return tl::unexpected(field.error());
     slot.field.emplace(std::move(*field));
 
@@ -136,7 +137,7 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     counts.list_ms = clock.elapsed_ms();
     counts.triangle_count = slot.cut.triangle_count(), counts.void_rim_triangle_count = slot.cut.void_rim_triangle_count;
     counts.terrain_tested_count = slot.cut.tested_count;
-    counts.predicted_error_px = slot.cut.predicted_error_px;
+    slot.images_error_px = planting_error_px(*slot.field, slot.list, slot.camera);
     counts.threads = thread_count();
     const Cell& cell = planted_.images().set().cell;
     double above_m = slot.camera.position_m.z - planted_.ground().height_m(glm::dvec2(slot.camera.position_m));
@@ -144,11 +145,10 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     return {};
 }
 
-// Without models nothing is drawn as geometry; nor by a processor unless it was asked for.
+// Without models nothing is drawn as geometry.
 FrameOptions FrameDrawer::field_options() const {
     FrameOptions options = options_;
-    bool is_asked = options.geometry == NearGeometry::always || options.geometry_m > 0 || !is_software_;
-    if (land_.plants == nullptr || !is_asked) options.geometry = NearGeometry::none;
+    options.has_geometry &= land_.plants != nullptr;
     return options;
 }
 
@@ -245,6 +245,8 @@ void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& loo
     land_.drawing->draw(target, slot.cut, local, look);
     slot.counts.plants = {};
     if (land_.plants != nullptr) slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants, options_.error_px);
+    slot.counts.planting_error_px = std::max(slot.images_error_px, slot.counts.plants.error_px);
+    slot.counts.predicted_error_px = std::max(slot.cut.predicted_error_px, slot.counts.planting_error_px);
     slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes;
     if (splats_)
         splat(slot);

@@ -59,7 +59,8 @@ struct FrameCounts {
     uint32_t threads = 1;
     bool is_warped_by_card = false;   // of warp then only `samples`, of all that is drawn, and images_missing are counted
     double list_ms = 0, warp_ms = 0;  // warp_ms: beside other work, of one that is pipelined; of the card until it has its orders
-    double predicted_error_px = 0;    // of the terrain alone
+    double planting_error_px = 0;     // of what is planted: planting_error_px, and of geometry what its levels are off
+    double predicted_error_px = 0;    // of terrain and planting, the greater
 };
 
 // Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
@@ -96,6 +97,7 @@ class FrameDrawer {
         FieldList list;
         terrain::Cut cut;
         std::vector<PlantPlaces> plants;  // drawn as geometry
+        double images_error_px = 0;       // planting_error_px
         Warped picture;
         FrameCounts counts;
     };

@@ -12,29 +12,23 @@
 namespace overlook::wang_ldi {
 namespace {
 
-// Items of one level stand one after the other.
-discrete::FrameList listed(const discrete::ChainFacts& facts, const PlantPlaces& places, const view::Camera& camera,
-                           double error_px) {
-    discrete::SelectSettings settings;
-    settings.error_px = error_px > 0 ? error_px : 1;
-    discrete::Selector selector(facts, settings, camera);
-    discrete::FrameList list;
-    for (uint32_t p = 0; p < places.placements.size(); ++p) {
-        if (!selector.is_in_view(places.placements[p])) continue;
-        uint32_t level = error_px > 0 ? selector.wanted(places.placements[p]) : 0;
-        discrete::Show show = places.shares[p] < 1 ? discrete::Show::dithered_in : discrete::Show::whole;
-        list.items.push_back({p, level, show, double(places.shares[p]), 0, 1});
-        list.triangle_count += facts.levels[level].triangle_count;
-    }
-    std::stable_sort(list.items.begin(), list.items.end(),
-                     [](const discrete::Item& a, const discrete::Item& b) { return a.level < b.level; });
-    list.in_view_count = list.items.size(), list.tested_count = places.placements.size();
-    return list;
+// Of plants that give way to images, on the pixels that a screen door opens first; else on all. The door as discrete's.
+constexpr char kFading[] = "#define IS_FADING 1\n", kNotFading[] = "#define IS_FADING 0\n";
+constexpr char kDoor[] = R"(
+void leave_by_door(Item item) {
+#if IS_FADING
+    uvec2 p = uvec2(gl_FragCoord.xy);
+    uint x = p.x ^ p.y, y = p.y, order = 0u;
+    for (uint bit = 0u; bit < 3u; ++bit) order = order << 2 | (x >> bit & 1u) << 1 | (y >> bit & 1u);
+    if ((float(order) + 0.5) / 64.0 >= item.share) discard;
+#endif
 }
+)";
 
 // As discrete's own of one picture, without its light.
 constexpr char kUnlitMain[] = R"(
 void main() {
+    leave_by_door(own_item());
     colour = vec4(encoded(unlit_colour(own_item().is_plain)), 1.0);
 }
 )";
@@ -52,6 +46,7 @@ vec3 around(vec3 normal, float sky_share) {
 
 void main() {
     Item item = own_item();
+    leave_by_door(item);
     vec3 own = unlit_colour(item.is_plain);
     vec3 face = normalize(cross(dFdx(surface.relative_m), dFdy(surface.relative_m)));
     if (dot(face, surface.relative_m) > 0.0) face = -face;
@@ -85,7 +80,7 @@ void set_light(const gl::Program& program, const discrete::Chain& chain, const C
 std::string plant_look_text() {
     BakedLight light;
     std::string text = std::string(discrete::shaders::kItemInputs) + discrete::shaders::kVertex + discrete::shaders::kItem +
-                       discrete::shaders::kFragment + kUnlitMain + kSunlitMain;
+                       discrete::shaders::kFragment + kDoor + kUnlitMain + kSunlitMain;
     for (const glm::vec3& one : {light.sun, light.sky, light.ground}) text += fmt::format("{} {} {} ", one.x, one.y, one.z);
     return text + fmt::format("{} {}", light.transmission, kCanopyForm);
 }
@@ -99,33 +94,48 @@ Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Plant
         Result<discrete::Drawing> drawing = discrete::Drawing::make(chain);
         if (!drawing) return tl::unexpected(drawing.error());
         auto model = std::make_unique<Model>();
-        model->facts = discrete::facts_of(chain);
+        model->form = form_of(chain);
         model->drawing = std::move(*drawing);
-        Result<gl::Program> program = model->drawing.program("plants", "", is_lit ? kSunlitMain : kUnlitMain);
-        if (!program) return tl::unexpected(program.error());
-        if (is_lit) set_light(*program, chain, canopy, to_sun);
-        model->program.emplace(std::move(*program));
+        for (const char* define : {kNotFading, kFading}) {
+            std::string main = std::string(kDoor) + (is_lit ? kSunlitMain : kUnlitMain);
+            Result<gl::Program> program = model->drawing.program("plants", define, main);
+            if (!program) return tl::unexpected(program.error());
+            if (is_lit) set_light(*program, chain, canopy, to_sun);
+            model->programs.push_back(std::move(*program));
+        }
         made.models_.push_back(std::move(model));
     }
     return made;
 }
 
+void Plants::draw_model(Model& model, bool is_fading, const PlantPlaces& places, const view::Camera& camera, double error_px,
+                        const std::optional<view::Part>& part, PlantCounts& counts) const {
+    ListedPlants listed = plants_listed(model.form, places, camera, error_px);
+    const discrete::FrameList& frame = listed.frame;
+    counts.error_px = std::max(counts.error_px, listed.error_px);
+    counts.plant_count += frame.in_view_count, counts.triangle_count += frame.triangle_count;
+    if (frame.items.empty()) return;
+    discrete::DrawOptions options;
+    options.part = part;
+    discrete::DrawList list =
+        discrete::draw_list(model.drawing.layout(), model.drawing.chain(), frame, places.placements, camera, 0);
+    counts.uploaded_bytes += model.buffers.fill(list);
+    model.drawing.draw_calls(model.programs[is_fading], model.buffers, list, list.whole_calls, options);
+    counts.draw_call_count += list.whole_calls.size();
+}
+
 PlantCounts Plants::draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantPlaces> by_model,
                          double error_px, const std::optional<view::Part>& part) {
     PlantCounts counts;
-    discrete::DrawOptions options;
-    options.part = part;
     target.bind();
     for (size_t m = 0; m < models_.size(); ++m) {
-        Model& model = *models_[m];
-        discrete::FrameList frame = listed(model.facts, by_model[m], camera, error_px);
-        counts.plant_count += frame.in_view_count, counts.triangle_count += frame.triangle_count;
-        if (frame.items.empty()) continue;
-        discrete::DrawList list =
-            discrete::draw_list(model.drawing.layout(), model.drawing.chain(), frame, by_model[m].placements, camera, 0);
-        counts.uploaded_bytes += model.buffers.fill(list);
-        model.drawing.draw_calls(*model.program, model.buffers, list, list.whole_calls, options);
-        counts.draw_call_count += list.whole_calls.size();
+        PlantPlaces whole, fading;
+        for (size_t p = 0; p < by_model[m].placements.size(); ++p) {
+            PlantPlaces& of = by_model[m].shares[p] < 1 ? fading : whole;
+            of.placements.push_back(by_model[m].placements[p]), of.shares.push_back(by_model[m].shares[p]);
+        }
+        draw_model(*models_[m], false, whole, camera, error_px, part, counts);
+        draw_model(*models_[m], true, fading, camera, error_px, part, counts);
     }
     return counts;
 }

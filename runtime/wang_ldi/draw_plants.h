@@ -12,6 +12,7 @@
 #include "formats/wang_tiles.h"
 #include "runtime/discrete/draw.h"
 #include "runtime/gl/target.h"
+#include "runtime/wang_ldi/plant_levels.h"
 #include "runtime/wang_ldi/plants.h"
 
 namespace overlook::wang_ldi {
@@ -20,6 +21,7 @@ struct PlantCounts {
     uint64_t plant_count = 0;     // in view
     uint64_t triangle_count = 0;  // submitted
     uint64_t draw_call_count = 0, uploaded_bytes = 0;
+    double error_px = 0;  // nothing of them is displaced by more in the picture: proven of each level, against the chain's source
 };
 
 // All that says what a plant looks like beside its chain: what pictures that are kept depend on.
@@ -41,11 +43,14 @@ class Plants {
 
   private:
     struct Model {
-        discrete::ChainFacts facts;
+        PlantForm form;
         discrete::Drawing drawing;
-        std::optional<gl::Program> program;
+        std::vector<gl::Program> programs;  // of plants that are whole, and that fade
         discrete::ListBuffers buffers;
     };
+    void draw_model(Model& model, bool is_fading, const PlantPlaces& places, const view::Camera& camera, double error_px,
+                    const std::optional<view::Part>& part, PlantCounts& counts) const;
+
     std::vector<std::unique_ptr<Model>> models_;
 };
 

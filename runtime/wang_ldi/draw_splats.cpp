@@ -103,7 +103,7 @@ void Splats::begin(uint32_t width_px, uint32_t height_px) {
 }
 
 void Splats::round(const gl::Program& images, const gl::Program& points, const std::vector<One>& draws, uint32_t point_count,
-                   const view::Camera& camera, SplatCounts& counts) const {
+                   const view::Camera& camera) const {
     set_view(images, camera);
     GLint draw_index = images.at("draw_index");
     for (size_t d = 0; d < draws.size(); ++d) {
@@ -111,13 +111,11 @@ void Splats::round(const gl::Program& images, const gl::Program& points, const s
         glUniform1ui(draw_index, GLuint(d));
         dispatch(draws[d].sample_count);
     }
-    counts.dispatch_count += draws.size();
     if (point_count == 0) return;
     set_view(points, camera);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, loose_.id());
     glUniform1ui(points.at("point_count"), point_count);
     dispatch(point_count);
-    ++counts.dispatch_count;
 }
 
 SplatCounts Splats::draw(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
@@ -143,7 +141,7 @@ SplatCounts Splats::draw(const view::Camera& camera, const Field& field, const F
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, planes_.id());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, filled_.id());
     for (size_t r = 0; r < images_.size(); ++r) {
-        round(images_[r], points_[r], draws, uint32_t(lists.points.size()), camera, counts);
+        round(images_[r], points_[r], draws, uint32_t(lists.points.size()), camera);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     into.fit(camera.width_px, camera.height_px);
@@ -153,7 +151,6 @@ SplatCounts Splats::draw(const view::Camera& camera, const Field& field, const F
     glBindImageTexture(1, into.depths(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     glDispatchCompute((camera.width_px + 7) / 8, (camera.height_px + 7) / 8, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    ++counts.dispatch_count;
     return counts;
 }
 

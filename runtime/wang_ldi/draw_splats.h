@@ -22,7 +22,7 @@ namespace overlook::wang_ldi {
 struct SplatCounts {
     uint64_t samples = 0;         // of all images and far points drawn, whether they are shown or not
     uint64_t images_missing = 0;  // that are shown and were not at hand
-    uint64_t uploaded_bytes = 0, dispatch_count = 0;
+    uint64_t uploaded_bytes = 0;
 };
 
 // A context must be current.
@@ -54,7 +54,7 @@ class Splats {
     void let_go(const PreparedAt& image_at);
     void begin(uint32_t width_px, uint32_t height_px);
     void round(const gl::Program& images, const gl::Program& points, const std::vector<One>& draws, uint32_t point_count,
-               const view::Camera& camera, SplatCounts& counts) const;
+               const view::Camera& camera) const;
 
     bool is_in_one_round_ = false;
     std::vector<gl::Program> images_, points_;  // of each round

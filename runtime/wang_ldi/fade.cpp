@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/wang_ldi/tile_error.h"
+
 namespace overlook::wang_ldi {
 namespace {
 
@@ -31,9 +33,12 @@ Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
     if (options.geometry_to_m > 0) wanted.push_back({Stage::geometry, 0, 0, 0, 0});
     double images_from_m = std::max(options.geometry_to_m, 0.0), images_to_m = std::min(options.texture_from_m, options.radius_m);
     uint32_t first = level_for(set, images_from_m * options.coarser);
-    for (uint32_t level = first; level < set.levels.size(); ++level)
+    double rim_m = set.tile_m * std::sqrt(0.5), keeps_m = images_to_m * (1 - options.fade_share) - rim_m;
+    for (uint32_t level = first; level < set.levels.size(); ++level) {
+        if (level > first && !(sample_error_m(set, level) * options.samples_from < keeps_m)) break;
         wanted.push_back(
             {Stage::ldi, level, level == first ? images_from_m : double(set.levels[level].nearest_m) / options.coarser, 0, 0});
+    }
     add_far_rungs(options, std::max(options.texture_from_m, images_from_m), wanted);
     wanted.push_back({Stage::bare, 0, options.radius_m, 0, 0});
 

@@ -42,11 +42,14 @@ struct LadderOptions {
     double radius_m = std::numeric_limits<double>::infinity();  // nothing is drawn beyond
     // Of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other.
     double fade_share = 0.05;
+    // Levels whose samples' error in metres times this is not less than where images end are left out, but for the first; 0:
+    // none.
+    double samples_from = 0;
     double coarser = 1;  // > 0; levels begin so much nearer than the set has them, whose samples are so much wider in the picture
 };
-// The levels of the set that lie between, their distances as the set has them but for coarser; then textures, each where its texels
-// are a pixel wide, and colours, so far that there is no end of them to be seen (kFarthest_m). Rungs that would have no room are
-// left out.
+// The levels of the set that lie between, their distances as the set has them but for coarser; then textures, each where its
+// texels are a pixel wide, and colours, so far that there is no end of them to be seen (kFarthest_m). Rungs that would have no
+// room are left out.
 constexpr double kFarthest_m = 2e7;
 Ladder ladder_of(const ImageSet& set, const LadderOptions& options);
 

@@ -40,10 +40,13 @@ class FarPainter {
         return far_.picture(item_->context, item_->tile, shown.direction,
                             field_.texture_level(field_.ladder().rungs[shown.rung]));
     }
-    void draw_texel(const FarPicture& picture, uint32_t column, uint32_t row) {
-        FarPlace place = view_.place_of(item_->i, item_->j, 0);
+    FarPlace place() const { return view_.place_of(item_->i, item_->j, 0); }
+    double share_of(const FarPicture& picture, const FarPlace& place) const {
+        return view_.share_of(picture, place, view_.rise_at(place));
+    }
+    void draw_texel(const FarPicture& picture, const FarPlace& place, double share, uint32_t column, uint32_t row) {
         size_t texel = size_t(row) * picture.side_px + column;
-        draw_samples(picture, place, picture.first[texel], picture.first[texel + 1], view_.share_of(picture, place));
+        draw_samples(picture, place, picture.first[texel], picture.first[texel + 1], share);
     }
 
   private:
@@ -151,16 +154,18 @@ class FarPainter {
         FarPlace place = view_.place_of(i, j, 0);
         if (std::isnan(place.ground_m)) return;
         Chosen chosen = view_.chosen_at(place);
-        uint32_t tile = item_->tiles_log2 == 0 ? item_->tile : parts_.tiling->at(i, j);
+        double rise = view_.rise_at(place);
+        uint32_t context = context_of(i, j), tile = item_->tiles_log2 == 0 ? item_->tile : parts_.tiling->at(i, j);
         for (auto [rung, by_rung] :
              {std::pair(chosen.rungs.first, first_of(chosen.rungs)), {chosen.rungs.second, second_of(chosen.rungs)}}) {
             if (by_rung.share() == 0) continue;
-            draw_rung({i, j, tile, rows_log2}, place, chosen, rung, by_rung);
+            draw_rung({i, j, tile, context, rows_log2, rise}, place, chosen, rung, by_rung);
         }
     }
     struct OneTile {
         int64_t i, j;
-        uint32_t tile, rows_log2;
+        uint32_t tile, context, rows_log2;
+        double rise;  // as FarView::rise_at
     };
     void draw_rung(const OneTile& one, const FarPlace& place, const Chosen& chosen, uint32_t rung, const Thresholds& by_rung) {
         const std::vector<Rung>& rungs = field_.ladder().rungs;
@@ -171,9 +176,9 @@ class FarPainter {
         for (auto [direction, by_direction] : {std::pair(chosen.directions.first, first_of(chosen.directions)),
                                                {chosen.directions.second, second_of(chosen.directions)}}) {
             if (by_direction.share() == 0) continue;
-            uint32_t context = context_of(one.i, one.j);
-            const FarPicture& picture = far_.picture(context, one.tile, direction, field_.texture_level(rungs[rung]));
-            double share = view_.share_of(picture, place), opacity = double(far_.mean(context, one.tile, direction).opacity);
+            const FarPicture& picture = far_.picture(one.context, one.tile, direction, field_.texture_level(rungs[rung]));
+            double share = view_.share_of(picture, place, one.rise),
+                   opacity = double(far_.mean(one.context, one.tile, direction).opacity);
             if (one.rows_log2 > 0 && opacity > 0)
                 share *= std::min(kMostRows, behind_each_other(opacity, one.rows_log2) / opacity);
             draw_picture(picture, place, share, {Field::fade_number(one.i, one.j), coarser_px, by_rung, by_direction});
@@ -250,15 +255,19 @@ void FarPainter<Brush>::draw_picture(const FarPicture& picture, const FarPlace& 
 template <class Brush>
 class FarColumns final : public Columns {
   public:
-    FarColumns(FarPainter<Brush>& painter, const FarPicture& picture) : painter_(painter), picture_(picture) {
+    // Of the item that the painter has begun.
+    FarColumns(FarPainter<Brush>& painter, const FarPicture& picture)
+        : painter_(painter), picture_(picture), place_(painter.place()), share_(painter.share_of(picture, place_)) {
         side_px = picture.side_px;
     }
     void stand_on(const Plane&) override {}  // texels lie on the ground itself
-    void draw(uint32_t column, uint32_t row) override { painter_.draw_texel(picture_, column, row); }
+    void draw(uint32_t column, uint32_t row) override { painter_.draw_texel(picture_, place_, share_, column, row); }
 
   private:
     FarPainter<Brush>& painter_;
     const FarPicture& picture_;
+    FarPlace place_;
+    double share_;
 };
 
 }  // namespace overlook::wang_ldi

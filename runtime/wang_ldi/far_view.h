@@ -6,11 +6,11 @@
 #include "runtime/wang_ldi/far_images.h"
 #include "runtime/wang_ldi/field.h"
 #include "runtime/wang_ldi/in_picture.h"
+#include "runtime/wang_ldi/tile_error.h"
 
 namespace overlook::wang_ldi {
 
-constexpr double kStrip_px = 0.25;  // rows of tiles so close in the picture are drawn as one
-constexpr double kOverlap = 2.5;    // ground that is covered is covered by so many points, since they fall on each other
+constexpr double kOverlap = 2.5;  // ground that is covered is covered by so many points, since they fall on each other
 
 struct FarPlace {
     glm::dvec2 low_m, middle_m;
@@ -61,10 +61,10 @@ class FarView {
 
     // How much of a picture's points are drawn: less where they are wider than what they stand for, which is less than a pixel
     // wide; more where the ground is seen from above.
-    double share_of(const FarPicture& picture, const FarPlace& place) const {
+    double share_of(const FarPicture& picture, const FarPlace& place, double rise) const {
         if (picture.samples.empty()) return 0;
         double texel_m = place.side_m / picture.side_px;
-        return (1 + kOverlap * texel_m * rise_at(place) / double(picture.high_m)) * shrunk(double(picture.wide_m), place);
+        return (1 + kOverlap * texel_m * rise / double(picture.high_m)) * shrunk(double(picture.wide_m), place);
     }
     double shrunk(double wide_m, const FarPlace& place) const {
         float depth_m = eye_.seen(glm::dvec3(place.middle_m, place.ground_m) - eye_.position_m).z;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "runtime/wang_ldi/tile_error.h"
+
 namespace overlook::wang_ldi {
 namespace {
 
@@ -32,6 +34,7 @@ Result<void> check(const FieldOptions& options) {
         return bad_command("a field's levels {} times nearer: above 0 is needed", options.ladder.coarser);
     if (!(options.displacement_px > 0)) return bad_command("a displacement of {} px: above 0 is needed", options.displacement_px);
     const LadderOptions& ladder = options.ladder;
+    if (!(options.error_px > 0)) return bad_command("a field within {} px: above 0 is needed", options.error_px);
     if (!(ladder.radius_m > 0 && ladder.geometry_to_m >= 0 && ladder.texture_from_m >= 0 && ladder.texel_from_m > 0))
         return bad_command(
             "a field with geometry to {} m, textures from {} m, their texels a pixel at {} m, {} m wide: a distance is wrong",
@@ -74,10 +77,11 @@ Result<Field> Field::of(const FieldParts& parts, const FieldOptions& options) {
         return bad_command("a field of {} images with {} counts of samples", images.ldi_count(), parts.sample_counts.size());
     Field made;
     made.parts_ = parts, made.options_ = options, made.ladder_ = ladder_of(images, options.ladder);
-    made.blocks_from_m_ = made.reach_m_ = INFINITY;
+    made.blocks_from_m_ = made.reach_m_ = made.images_to_m_ = INFINITY;
     const std::vector<Rung>& rungs = made.ladder_.rungs;
-    if (rungs.front().stage == Stage::geometry) made.geometry_to_m_ = rungs.size() > 1 ? rungs[1].fade_to_m : INFINITY;
+    made.has_geometry_ = rungs.front().stage == Stage::geometry;
     for (const Rung& rung : rungs) {
+        if (rung.stage > Stage::ldi) made.images_to_m_ = std::min(made.images_to_m_, rung.fade_from_m);
         if (rung.stage >= Stage::texture) made.blocks_from_m_ = std::min(made.blocks_from_m_, rung.fade_to_m);
         if (rung.stage == Stage::bare) made.reach_m_ = rung.fade_to_m;
     }
@@ -92,6 +96,18 @@ Chosen Field::chosen(const glm::dvec2& eye_from_middle_m, double eye_above_groun
     double distance = distance_m(eye_from_middle_m, eye_above_ground_m);
     return {distance, rungs_at(ladder_, distance),
             directions_at(*parts_.images, eye_from_middle_m, options_.direction_fade_share)};
+}
+
+double Field::farthest_within_m(double error_m) const {
+    double at_m = 0, within_m = 0;
+    for (const Rung& rung : ladder_.rungs) {
+        if (rung.stage == Stage::geometry) continue;
+        if (rung.stage != Stage::ldi) break;
+        double own_m = sample_error_m(*parts_.images, rung.level);
+        if (error_m < own_m) return at_m + (rung.fade_from_m - at_m) * std::max(0.0, error_m - within_m) / (own_m - within_m);
+        at_m = rung.fade_from_m, within_m = own_m;
+    }
+    return INFINITY;
 }
 
 double Field::texels_of(const Rung& rung) const {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/view/box_error.h"
 #include "runtime/view/pixel_error.h"
 #include "runtime/wang_ldi/field.h"
 
@@ -33,6 +34,7 @@ class FieldWalk {
           images_(*field.parts_.images),
           placement_(*field.parts_.placement),
           list_(list),
+          bound_(camera),
           sides_(view::sides_of(camera)),
           forward_(view::axes_of(camera).forward),
           eye_m_(camera.position_m),
@@ -65,7 +67,7 @@ class FieldWalk {
         double ground_m = distance_to(rect, glm::dvec2(eye_m_));
         if (ground_m >= field_.reach_m_) return;
         GroundRange bound = placement_.ground().bound(rect);
-        if (bound.is_empty() || !is_in_sight(rect, bound, ground_m < field_.geometry_to_m_)) return;
+        if (bound.is_empty() || !is_in_sight(rect, bound)) return;
         Placement::Coverage coverage = placement_.coverage(rect);
         if (log2 == 0) return visit_tile(i, j, rect, coverage);
         if (coverage == Placement::Coverage::none) return;
@@ -79,8 +81,8 @@ class FieldWalk {
 
     // Whether some of a rectangle with what is planted on it may be: a box behind one of the sides is not. Geometry reaches over
     // its edges, images do not.
-    bool is_in_sight(const Rect& rect, const GroundRange& ground, bool may_be_geometry) const {
-        double over_m = may_be_geometry ? field_.parts_.overhang_m : 0;
+    bool is_in_sight(const Rect& rect, const GroundRange& ground) const {
+        double over_m = field_.has_geometry_ ? field_.parts_.overhang_m : 0;
         glm::dvec3 low = glm::dvec3(rect.low_m - over_m, ground.low_m + images_.low_m) - eye_m_;
         glm::dvec3 high = glm::dvec3(rect.high_m + over_m, ground.high_m + images_.high_m) - eye_m_;
         auto farthest = [&](const glm::dvec3& along) {
@@ -107,9 +109,7 @@ class FieldWalk {
         GroundRange range = placement_.ground().range(rect);
         double above_m = eye_m_.z - placement_.ground().height_m((rect.low_m + rect.high_m) / 2.0);
         item.context = images_.context_count == 2 && placement_.is_at_edge(i, j);
-        bool is_upright = show(item, rect, range, above_m);  // has images or geometry, not textures alone
-        if (item.shown_count == 0) return;
-        if (is_upright) shear(item, rect), judge(item, rect);
+        if (!show(item, rect, range, above_m)) return;
         ++list_.counts.tiles_listed;
         list_.items.push_back(item);
     }
@@ -134,32 +134,54 @@ class FieldWalk {
         list_.items.push_back(item);
     }
 
-    // Chooses rungs and directions by the tile's middle; whether images or geometry are among them.
+    // Chooses rungs and directions by the tile's middle; whether anything is shown.
     bool show(Item& item, const Rect& rect, const GroundRange& range, double eye_above_m) {
         glm::dvec2 eye_from_middle = glm::dvec2(eye_m_) - (rect.low_m + rect.high_m) / 2.0;
         Chosen chosen = field_.chosen(eye_from_middle, eye_above_m);
         item.distance_m = chosen.distance_m;
         item.low_m = range.low_m + images_.low_m, item.high_m = range.high_m + images_.high_m;
+        bool is_upright = field_.ladder_.rungs[chosen.rungs.first].stage <= Stage::ldi;  // not textures alone
+        if (is_upright) shear(item, rect);
+        if (item.distance_m < field_.images_to_m_) {
+            item.distance_m = std::min(item.distance_m, field_.farthest_within_m(permitted_m(item, rect)));
+            chosen.rungs = rungs_at(field_.ladder_, item.distance_m);
+        }
         item.first_shown = uint32_t(list_.shown.size());
         const Mix &rungs = chosen.rungs, &directions = chosen.directions;
-        bool is_upright = show_rung(item, rungs.first, first_of(rungs), directions);
-        if (rungs.second != rungs.first) is_upright |= show_rung(item, rungs.second, second_of(rungs), directions);
+        auto [by_first, by_second] = thresholds_of(rungs);
+        show_rung(item, rungs.first, by_first, directions);
+        if (rungs.second != rungs.first) show_rung(item, rungs.second, by_second, directions);
         item.shown_count = uint32_t(list_.shown.size()) - item.first_shown;
-        return is_upright;
+        if (is_upright) judge(item, rect);
+        return item.shown_count > 0;
     }
 
-    bool show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions) {
+    // Geometry gives way only to images that are whole already, since what is left out of it and what is not yet of them are not
+    // the same places.
+    std::pair<Thresholds, Thresholds> thresholds_of(const Mix& rungs) const {
+        bool is_of_geometry = field_.ladder_.rungs[rungs.first].stage == Stage::geometry;
+        if (!is_of_geometry || rungs.second == rungs.first) return {first_of(rungs), second_of(rungs)};
+        uint32_t image = std::min(kWhole, 2 * rungs.second_share), geometry = std::min(kWhole, 2 * (kWhole - rungs.second_share));
+        return {{0, geometry}, {kWhole - image, kWhole}};
+    }
+
+    // How far samples may stand from their surfaces, in metres. Of what its ground may stand off an even part is kept back, so
+    // that nothing changes at once where a tile is cut in more pieces.
+    double permitted_m(const Item& item, const Rect& rect) const {
+        const FieldOptions& options = field_.options_;
+        if (std::isinf(options.error_px)) return INFINITY;
+        double all_m = bound_.metres(bound_.of({rect.low_m, item.low_m}, {rect.high_m, item.high_m}), options.error_px);
+        double kept_m = item.displacement_m > 0 ? all_m * std::min(1.0, options.displacement_px / options.error_px) : 0;
+        return all_m - std::max(item.displacement_m, kept_m);
+    }
+
+    void show_rung(Item& item, uint32_t index, Thresholds by_rung, const Mix& directions) {
         const Rung& rung = field_.ladder_.rungs[index];
-        if (rung.stage == Stage::bare) return false;
-        if (rung.stage == Stage::geometry) {
-            list_.shown.push_back({index, 0, by_rung, {}});
-            return true;
-        }
+        if (rung.stage == Stage::bare) return;
+        if (rung.stage == Stage::geometry) return list_.shown.push_back({index, 0, by_rung, {}});
         add_shown(item, {index, directions.first, by_rung, first_of(directions)});
         if (directions.second != directions.first) add_shown(item, {index, directions.second, by_rung, second_of(directions)});
-        if (rung.stage != Stage::ldi) return false;
-        item.coarser_px = images_.levels[rung.level].side_px;
-        return true;
+        if (rung.stage == Stage::ldi) item.coarser_px = images_.levels[rung.level].side_px;
     }
 
     // Whether images are drawn for an eye that they were not sampled for. A tile sheared onto a slope looks as it does on flat
@@ -243,6 +265,7 @@ class FieldWalk {
     const ImageSet& images_;
     const Placement& placement_;
     FieldList& list_;
+    view::BoxErrorBound bound_;
     std::array<glm::dvec3, 4> sides_;
     glm::dvec3 forward_, eye_m_;
     double near_m_, focal_px_, secant_;

@@ -35,7 +35,7 @@ void RingImages::take(const Field& field, const FieldList& list, const ImageStor
     const stream::Counts& counts = images.counts();
     uint64_t taken = counts.resident_bytes + counts.on_the_way_bytes, budget = images.settings().residency_budget_bytes;
     uint64_t room = budget > taken ? budget - taken : 0;
-    bytes_ = 0;
+    uint64_t all_bytes = 0;
     for (const Item& item : list.items)
         for (const Shown& shown : list.shown_of(item)) {
             const Rung& rung = field.ladder().rungs[shown.rung];
@@ -43,8 +43,8 @@ void RingImages::take(const Field& field, const FieldList& list, const ImageStor
             uint64_t index = field.image_of(item, shown);
             const StoredImage* image = images_.contains(index) ? nullptr : images.at(index);
             uint64_t bytes = image == nullptr ? 0 : images.bytes_of(index);
-            if (image == nullptr || bytes_ + bytes > room) continue;
-            bytes_ += bytes;
+            if (image == nullptr || all_bytes + bytes > room) continue;
+            all_bytes += bytes;
             if (auto kept = before.extract(index))
                 images_.insert(std::move(kept));
             else

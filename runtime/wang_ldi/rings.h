@@ -23,11 +23,9 @@ class RingImages {
     void take(const Field& field, const FieldList& list, const ImageStore& images);
     // Null of what is not ready. Any thread.
     const StoredImage* at(uint64_t index) const;
-    uint64_t bytes() const { return bytes_; }
 
   private:
     std::map<uint64_t, StoredImage> images_;
-    uint64_t bytes_ = 0;
 };
 // One image so.
 Ldi ring_image(const Ldi& ldi, uint32_t level, uint32_t direction);

@@ -5,10 +5,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "runtime/wang_ldi/tile_error.h"
+
 namespace overlook::wang_ldi {
 namespace {
 
 constexpr FrameOptions kDefaults;
+constexpr double kOfGround = 1.0 / 8;  // of the error, that tiles may stand off their ground
 constexpr SettingKind kErrorPx{"error-px", 0.001, 10000, kDefaults.error_px};
 constexpr SettingKind kRadiusM{"radius-m", 0, 1e7, kDefaults.radius_m, false, true};
 constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
@@ -19,7 +22,7 @@ constexpr std::array<SettingKind, 15> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
-                                              SettingKind{"geometry", 0, 2, 2, true},
+                                              SettingKind{"geometry", 0, 1, 1, true, true, true},
                                               SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
                                               SettingKind{"warper", 0, 2, 0, true},
                                               SettingKind{"exact", 0, 1, 0, true, true, true},
@@ -55,7 +58,7 @@ void set(FrameOptions& options, std::string_view name, double value) {
     } else if (name == "direction-fade") {
         options.direction_fade = value;
     } else if (name == "geometry") {
-        options.geometry = NearGeometry(int(value));
+        options.has_geometry = value != 0;
     } else if (name == "geometry-m") {
         options.geometry_m = value;
     } else if (name == "warper") {
@@ -81,20 +84,26 @@ void set(FrameOptions& options, std::string_view name, double value) {
 }
 
 double geometry_to_m(const ImageSet& images, const FrameOptions& options) {
-    if (options.variant == Variant::paper || options.geometry == NearGeometry::none) return 0;
+    if (options.variant == Variant::paper || !options.has_geometry) return 0;
     return options.geometry_m > 0 ? options.geometry_m : images.cell.nearest_m;
 }
 
-FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px, uint32_t texture_side_px) {
+FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, const view::Camera& camera,
+                              uint32_t texture_side_px) {
     bool is_paper = options.variant == Variant::paper;
-    FieldOptions made =
-        is_paper ? paper_options(images) : options_to_horizon(images, focal_px, geometry_to_m(images, options), texture_side_px);
+    FieldOptions made = is_paper
+                            ? paper_options(images)
+                            : options_to_horizon(images, view::focal_px(camera), geometry_to_m(images, options), texture_side_px);
     if (!is_paper) {
-        made.ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
-        made.displacement_px = options.error_px, made.ladder.coarser = options.error_px;
-        if (options.error_px > 1) made.ladder.texture_from_m /= options.error_px, made.ladder.texel_from_m /= options.error_px;
+        LadderOptions& ladder = made.ladder;
+        ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
+        made.error_px = options.error_px, made.displacement_px = options.error_px * kOfGround, ladder.coarser = options.error_px;
+        double rim_m = std::sqrt(0.5) * images.tile_m / (1 - options.fade);
+        ladder.texel_from_m = images.tile_m / texture_side_px * texels_from(camera, options.error_px, options.fade) + rim_m;
+        ladder.texture_from_m = std::max(images.cell.farthest_m / std::max(1.0, options.error_px), ladder.texel_from_m);
+        ladder.samples_from = samples_from(camera, options.error_px * (1 - kOfGround), options.fade);
         made.widens_splats = options.widens_splats;
-        if (!options.has_far) made.ladder.radius_m = made.ladder.texture_from_m;
+        if (!options.has_far) ladder.radius_m = ladder.texture_from_m;
         if (!options.cuts_tiles) made.displacement_px = INFINITY, made.most_pieces_log2 = 0, made.chooses_diagonals = false;
     }
     if (options.radius_m > 0) made.ladder.radius_m = std::min(made.ladder.radius_m, options.radius_m);

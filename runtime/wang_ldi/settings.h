@@ -14,28 +14,25 @@ enum class Variant {
     paper,  // as printed in 2002: 40 tiles far, no fades, tiles back to front
 };
 
-// Whether near tiles are drawn as what is planted on them: unless the renderer is a processor, which draws triangles dearly, or
-// as it is said.
-enum class NearGeometry { none, always, by_renderer };
-
 // Who warps: the graphics card's compute shaders unless the renderer is a processor, or as it is said.
 enum class Warper { by_renderer, processor, card };
 
 struct FrameOptions {
     Variant variant = Variant::own;
-    // > 0; of the terrain, of what tiles stand off it, and, of own, of samples: times as wide as the images were baked for.
+    // > 0; of the terrain and, of own, of all that is planted: wherever images were displaced by more, finer ones are drawn, or
+    // what is planted itself.
     double error_px = 1;
-    double radius_m = 0;                                // nothing is planted beyond; 0: the variant's own
-    double fade = 0.05;                                 // of own: LadderOptions::fade_share
-    double direction_fade = 0.1;                        // of own: FieldOptions::direction_fade_share
-    NearGeometry geometry = NearGeometry::by_renderer;  // of own: of near tiles, where there are models,
-    double geometry_m = 0;                              // up to here; 0: as near as images were sampled for
-    bool is_exact = false;                              // of own: warped as the paper's are, sample by sample, slowly
-    bool fills_holes = true;                            // of own, unless it is exact: small ones, as fill_holes
-    bool widens_splats = true;                          // of own: FieldOptions::widens_splats
-    bool has_far = true;      // of own: textures and colours beyond the images; false: nothing is drawn there
-    bool is_by_depth = true;  // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
-    bool cuts_tiles = true;   // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
+    double radius_m = 0;          // nothing is planted beyond; 0: the variant's own
+    double fade = 0.05;           // of own: LadderOptions::fade_share
+    double direction_fade = 0.1;  // of own: FieldOptions::direction_fade_share
+    bool has_geometry = true;   // of own: tiles, where there are models, that no image can show within the error, and near ones,
+    double geometry_m = 0;      // up to here; 0: as near as images were sampled for
+    bool is_exact = false;      // of own: warped as the paper's are, sample by sample, slowly
+    bool fills_holes = true;    // of own, unless it is exact: small ones, as fill_holes
+    bool widens_splats = true;  // of own: FieldOptions::widens_splats
+    bool has_far = true;        // of own: textures and colours beyond the images; false: nothing is drawn there
+    bool is_by_depth = true;    // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
+    bool cuts_tiles = true;     // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
     Warper warper = Warper::by_renderer;  // of own, unless it is exact
     bool is_pipelined = false;            // the warp of the next frame overlaps drawing this one, which is shown a frame late
     bool shows_rings = false;             // levels and directions by colours (the paper's figure 7)
@@ -49,10 +46,11 @@ std::span<const SettingKind> setting_kinds(Variant variant);
 // name and value must be of one of them.
 void set(FrameOptions& options, std::string_view name, double value);
 
-// Up to where tiles are drawn as geometry; 0: none. Of NearGeometry::by_renderer: always.
+// Up to where all tiles are drawn as geometry; 0: none.
 double geometry_to_m(const ImageSet& images, const FrameOptions& options);
 
-// Of a picture with so many pixels per unit of tangent, and textures of so many pixels a side.
-FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, double focal_px, uint32_t texture_side_px);
+// Of a camera's pictures, and textures of so many pixels a side.
+FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, const view::Camera& camera,
+                              uint32_t texture_side_px);
 
 }  // namespace overlook::wang_ldi

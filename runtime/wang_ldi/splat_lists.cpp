@@ -84,12 +84,14 @@ class ListMaker {
     void add_texture(const Item& item, const Shown& shown) {
         far_->begin(item);
         const FarPicture& picture = far_->picture(shown);
+        FarPlace place = far_->place();
+        double share = far_->share_of(picture, place);
         uint64_t number = Field::fade_number(item.i, item.j);
         for (uint32_t row = 0; row < picture.side_px; ++row)
             for (uint32_t column = 0; column < picture.side_px; ++column)
                 if (shown.by_rung.contains(rung_threshold(number, column, row, picture.side_px, item.coarser_px)) &&
                     shown.by_direction.contains(direction_threshold(number, column, row)))
-                    far_->draw_texel(picture, column, row);
+                    far_->draw_texel(picture, place, share, column, row);
     }
 
     Eye eye_;

@@ -51,7 +51,8 @@ TEST_F(MeasuredPlanting, StandsBesideItsOwnPlantsWithCountersThatRepeat) {
     ASSERT_TRUE(world) << world.error().message;
     ASSERT_TRUE(upload(*world));
     Course course;
-    for (const char* method : {"wang-ldi@samples=1", "wang-ldi:paper@samples=1", "wang-ldi@samples=1@exact=1@fill=0"})
+    for (const char* method :
+         {"wang-ldi@samples=1@geometry=0", "wang-ldi:paper@samples=1", "wang-ldi@samples=1@geometry=0@exact=1@fill=0"})
         course.specs.push_back(*parse_method(method));
     add_floors(course.specs);
     course.cameras = walk(*world, 3);
@@ -77,7 +78,7 @@ TEST_F(MeasuredPlanting, StandsBesideItsOwnPlantsWithCountersThatRepeat) {
     EXPECT_GT(first->runs[3].frames[0].counters.triangle_count, first->runs[0].frames[0].counters.triangle_count + 1000);
 }
 
-TEST_F(MeasuredPlanting, DrawsNearTilesAsGeometryWhereItIsAsked) {
+TEST_F(MeasuredPlanting, DrawsNearTilesAsGeometryUnlessItIsForbidden) {
     auto world = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
     ASSERT_TRUE(world) << world.error().message;
     ASSERT_TRUE(upload(*world));
@@ -88,9 +89,14 @@ TEST_F(MeasuredPlanting, DrawsNearTilesAsGeometryWhereItIsAsked) {
         made->decide(walk(*world, 1).front(), 0);
         return made->draw(*target);
     };
-    Counters images = triangles_of("wang-ldi@samples=1"), near = triangles_of("wang-ldi@samples=1@geometry-m=6");
+    Counters images = triangles_of("wang-ldi@samples=1@geometry=0"), near = triangles_of("wang-ldi@samples=1"),
+             wide = triangles_of("wang-ldi@samples=1@geometry-m=20");
     EXPECT_GT(near.triangle_count, images.triangle_count + 100);
     EXPECT_LT(near.sample_count, images.sample_count);
+    EXPECT_GT(wide.triangle_count, near.triangle_count);
+    // Images alone do not keep what is asked near the eye, and say so.
+    EXPECT_LE(near.predicted_error_px, 1);
+    EXPECT_GT(images.predicted_error_px, 4);
 }
 
 TEST_F(MeasuredPlanting, ShowsMagentaWhereItHasHolesAndNoneWhereItIsThePlants) {
@@ -99,7 +105,7 @@ TEST_F(MeasuredPlanting, ShowsMagentaWhereItHasHolesAndNoneWhereItIsThePlants) {
     paint_magenta(*world);
     ASSERT_TRUE(upload(*world));
     std::vector<MethodSpec> specs;
-    for (const char* method : {"wang-ldi@samples=1@geometry-m=1000@radius-m=500", "wang-ldi@samples=1@radius-m=0.5"})
+    for (const char* method : {"wang-ldi@samples=1@geometry-m=1000@radius-m=500", "wang-ldi@samples=1@radius-m=0.5@geometry=0"})
         specs.push_back(*parse_method(method));
     auto found = gaps_over_magenta(*world, specs, walk(*world, 2));
     ASSERT_TRUE(found) << found.error().message;

@@ -97,8 +97,10 @@ class Frames : public ::testing::Test {
     }
     // A step north each frame.
     static view::Camera camera(int frame) { return head_camera({0.7, 0.9 + 0.8 * frame, 1.7}, 12); }
-    ImageRgb8 picture(FrameDrawer& frames, int frame) {
-        auto decided = frames.decide(camera(frame), 0.1, 0);
+    ImageRgb8 picture(FrameDrawer& frames, int frame, double turned_deg = 0) {
+        view::Camera turned = camera(frame);
+        turned.heading_deg += turned_deg;
+        auto decided = frames.decide(turned, 0.1, 0);
         EXPECT_TRUE(decided) << decided.error().message;
         auto target = gl::Target::make(640, 480, 1);
         EXPECT_TRUE(target);
@@ -188,7 +190,7 @@ TEST_F(Frames, KeepTheBudgetOfTheirImages) {
     tight.settings.residency_budget_bytes = tight.settings.upload_budget_bytes = roomy->counts().stream.resident_bytes * 2 / 3;
     auto drawer = frames({}, tight);
     for (int frame = 0; frame < 6; ++frame) {
-        picture(*drawer, 3 * frame);
+        picture(*drawer, 3 * frame, 90 * frame);  // so that other directions are wanted
         const FrameCounts& counts = drawer->counts();
         EXPECT_LE(counts.stream.resident_bytes + counts.stream.on_the_way_bytes, tight.settings.residency_budget_bytes);
         EXPECT_GT(counts.images.stand_ins, 0u);

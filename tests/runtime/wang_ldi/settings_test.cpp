@@ -22,13 +22,13 @@ view::Camera on_hills() {
 }
 FrameOptions with(const char* name, double value) {
     FrameOptions options = defaults_of(Variant::own);
-    options.geometry = NearGeometry::none;
+    options.has_geometry = false;
     set(options, name, value);
     return options;
 }
 FieldOptions field_options(const FrameOptions& options) {
     constexpr uint32_t kTextureSide_px = 32;
-    return field_options_of(hilly_field().images, options, view::focal_px(on_hills()), kTextureSide_px);
+    return field_options_of(hilly_field().images, options, on_hills(), kTextureSide_px);
 }
 FieldList listed(const FrameOptions& options) {
     return list_of(hilly_field().field(field_options(options)), on_hills());

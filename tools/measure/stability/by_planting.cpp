@@ -97,10 +97,43 @@ Result<Finding> planted_shear(Stage& stage, const MethodSpec& spec, const scene:
     return finding;
 }
 
+namespace {
+
+// How high an eye is above the ground, by what is drawn of the finest terrain looking straight down.
+class GroundBelow {
+  public:
+    static Result<GroundBelow> make(const World& world) {
+        Result<gl::Target> target = gl::Target::make(kSide_px, kSide_px, 1);
+        if (!target) return tl::unexpected(target.error());
+        return GroundBelow(world, std::move(*target));
+    }
+    double above_m(const view::Camera& camera) const {
+        view::Camera down = camera;
+        down.position_m -= wang_ldi::origin_of(land_, camera);
+        down.width_px = down.height_px = kSide_px, down.pitch_deg = -90, down.fov_y_deg = 1, down.near_m = kNear_m;
+        land_.drawing->draw(target_, cut_, down, {});
+        return kNear_m / double(target_.read_depth()[kSide_px * kSide_px / 2]);
+    }
+
+  private:
+    static constexpr uint32_t kSide_px = 9;
+    static constexpr double kNear_m = 0.01, kEverything_m = -1;  // below every error, 0 as well
+    GroundBelow(const World& world, gl::Target target) : land_(world.planted->land()), target_(std::move(target)) {
+        land_.refiner->cut_by_metres(kEverything_m, cut_);
+    }
+    wang_ldi::Land land_;
+    terrain::Cut cut_;
+    gl::Target target_;
+};
+
+}  // namespace
+
 Result<void> say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, const std::vector<view::Camera>& cameras,
                            std::vector<Finding>& findings) {
-    const wang_ldi::PlantedField& planted = stage.world.planted->planted();
-    const wang_ldi::Cell& cell = planted.images().set().cell;
+    constexpr double kUnsure_m = 0.02;  // of what is read off a depth buffer
+    const wang_ldi::Cell& cell = stage.world.planted->planted().images().set().cell;
+    Result<GroundBelow> ground = GroundBelow::make(stage.world);
+    if (!ground) return tl::unexpected(ground.error());
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, 1);
     if (!target) return tl::unexpected(target.error());
     for (size_t i = 0; i < specs.size(); ++i) {
@@ -109,8 +142,8 @@ Result<void> say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, cons
         for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
             method->decide(cameras[frame], frame);
             bool is_said = method->draw(*target).is_eye_outside;
-            double above_m = cameras[frame].position_m.z - planted.ground().height_m(glm::dvec2(cameras[frame].position_m));
-            bool is_outside = !(above_m >= cell.eye_low_m && above_m <= cell.eye_high_m);
+            double above_m = ground->above_m(cameras[frame]);
+            bool is_outside = above_m < cell.eye_low_m - kUnsure_m || above_m > cell.eye_high_m + kUnsure_m;
             outside += is_outside, unsaid += is_outside && !is_said;
         }
         findings[i].figures["fallbacks_unsaid"] = unsaid;

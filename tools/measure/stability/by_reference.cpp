@@ -207,8 +207,10 @@ Result<std::vector<Finding>> run_yaw(Stage& stage, const Case&, const scene::Fli
                                          "place, {} px asked.",
                                          worst_px, stage.asked_px)
             : stage.world.is_planted()
-                ? fmt::format("Of its terrain it promises {:.3f} px, {} px asked; images are as wide as they were baked.",
-                              worst_px, stage.asked_px)
+                ? fmt::format(
+                      "By its bounds nothing of terrain and planting is drawn farther than {:.3f} px from its place, {} px "
+                      "asked.",
+                      worst_px, stage.asked_px)
             : is_image(specs[i])
                 ? fmt::format("It promises no worse than {:.3f} px for 99 % of a frame's pixels, {} px asked; not measured.",
                               worst_px, stage.asked_px)
