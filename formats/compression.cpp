@@ -9,17 +9,50 @@
 
 namespace overlook {
 
-Result<std::vector<std::byte>> zstd_compressed(const std::string& name, std::span<const std::byte> raw) {
+namespace {
+
+using Compressor = std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)>;
+
+// One frame in pieces, whose blocks end where they do. The size of what is stored, or zstd's error.
+size_t compress_in_pieces(ZSTD_CCtx* context, std::span<const std::byte> raw, std::span<const size_t> ends, int level,
+                          std::span<std::byte> stored) {
+    constexpr size_t kLeastPiece = 512;  // smaller ones gain less than a block of their own takes
+    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, level);
+    ZSTD_CCtx_setPledgedSrcSize(context, raw.size());
+    ZSTD_outBuffer out{stored.data(), stored.size(), 0};
+    size_t begin = 0;
+    auto add = [&](size_t end, ZSTD_EndDirective how) {
+        ZSTD_inBuffer in{raw.data() + begin, end - begin, 0};
+        begin = end;
+        size_t left = 0;
+        do left = ZSTD_compressStream2(context, &out, &in, how);
+        while (left > 0 && !ZSTD_isError(left) && out.pos < out.size);
+        return left;
+    };
+    for (size_t end : ends)
+        if (end - begin >= kLeastPiece && raw.size() - end >= kLeastPiece)
+            if (size_t left = add(end, ZSTD_e_flush); ZSTD_isError(left)) return left;
+    size_t left = add(raw.size(), ZSTD_e_end);
+    return ZSTD_isError(left) ? left : out.pos;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> zstd_compressed(const std::string& name, std::span<const std::byte> raw,
+                                               std::span<const size_t> ends) {
     // Baked numbers are residuals of a prediction: there is little to match, only to code. Of 1,201 x 1,201 heights (SRTM
     // N44W072) as planar residuals, level 1 leaves 713,134 bytes at 507 MB/s, level 9 762,728 at 72 MB/s, level 16 712,531 at 5
     // MB/s, and what level 1 wrote decodes at twice the speed of level 9 (zstd 1.5.4).
     constexpr int kZstdLevel = 1;
 
-    std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+    constexpr size_t kMostBlock = 64;  // a block's own head, with room
+    Compressor context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
     try {
-        std::vector<std::byte> stored(ZSTD_compressBound(raw.size()));
+        std::vector<std::byte> stored(ZSTD_compressBound(raw.size()) + kMostBlock * ends.size());
         if (!context) throw std::bad_alloc();
-        size_t size = ZSTD_compressCCtx(context.get(), stored.data(), stored.size(), raw.data(), raw.size(), kZstdLevel);
+        size_t size = ends.empty()
+                          ? ZSTD_compressCCtx(context.get(), stored.data(), stored.size(), raw.data(), raw.size(), kZstdLevel)
+                          : compress_in_pieces(context.get(), raw, ends, kZstdLevel, stored);
         if (ZSTD_isError(size)) return impossible("{}: cannot compress: {}", name, ZSTD_getErrorName(size));
         stored.resize(size);
         return stored;

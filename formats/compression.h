@@ -13,7 +13,10 @@ namespace overlook {
 
 // One zstd frame that states its content size, made by one thread. The same bytes for the same version of zstd, on any machine.
 // raw may be empty. Fails with Exit::impossible: "NAME: there is not enough memory to compress 4,096 bytes".
-Result<std::vector<std::byte>> zstd_compressed(const std::string& name, std::span<const std::byte> raw);
+// ends: places in raw, ascending, where numbers of another kind begin: blocks end there, each with a code of its own, wherever
+// that is worth a block.
+Result<std::vector<std::byte>> zstd_compressed(const std::string& name, std::span<const std::byte> raw,
+                                               std::span<const size_t> ends = {});
 
 // Why `stored` cannot be exactly one zstd frame of raw_bytes of content; empty if it may be. Allocates nothing. stored and
 // raw_bytes may be hostile: besides the frame's own words, a frame never expands more than its blocks can (128 KiB from each 4

@@ -51,6 +51,7 @@ struct ImageSet {
     uint32_t context_count = 1;  // 1: sampled among neighbours; 2: besides, alone, for the border of what is planted
     bool has_normals = false;    // colours are unlit, to be lit by these; else they are lit by sun and sky
     bool has_splats = false;     // each sample says how wide it is drawn
+    bool is_grouped = false;     // how images are stored: predicted and grouped, in a sixth fewer bytes
     // For how far beyond its own distances and headings each image was sampled, where it gives way to others: shares of the
     // distance where its level begins or ends, and of the angle between two directions; 0..0.5.
     float level_fade = 0, direction_fade = 0;

@@ -22,7 +22,7 @@ constexpr size_t tiles = 0, levels = 4, directions = 8, contexts = 12, flags = 1
                  high_m = 40, eye_low_m = 48, eye_high_m = 56, nearest_m = 64, farthest_m = 72, focal_px = 80, error_px = 88,
                  to_sun = 96, level_fade = 120, direction_fade = 124, bytes = 128;
 }
-constexpr uint32_t kHasNormals = 1, kHasSplats = 2;
+constexpr uint32_t kHasNormals = 1, kHasSplats = 2, kIsGrouped = 4;
 
 // Within a level's entry, after the head, and an image's, after the levels'.
 namespace level_at {
@@ -46,9 +46,13 @@ struct ImageFault {
 // Bytes of an image before compression.
 uint64_t raw_bytes_of(const ImageSet& set, uint32_t side_px, uint64_t samples, uint64_t colours);
 
-std::vector<std::byte> bytes_of_ldi(const ImageSet& set, const Ldi& ldi);
+std::vector<std::byte> bytes_of_ldi(const ImageSet& set, const Ldi& ldi);  // not grouped
 // `bytes` are exactly raw_bytes_of the entry's counts and may be hostile otherwise.
 ImageFault ldi_of_bytes(std::span<const std::byte> bytes, const ImageSet& set, uint32_t level, const Entry& entry, Ldi& ldi);
+
+// Rows of either form that are neither predicted nor grouped. take_...: ldi has its samples, `bytes` these rows and no more.
+void put_normals_and_splats(const Ldi& ldi, std::vector<std::byte>& bytes);
+void take_normals_and_splats(std::span<const std::byte> bytes, const ImageSet& set, Ldi& ldi);
 
 // The head and the levels; bytes_of_head does not ask whether they keep the rules.
 std::vector<std::byte> bytes_of_head(const ImageSet& set);

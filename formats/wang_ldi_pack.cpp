@@ -1,5 +1,5 @@
 // An image as bytes before compression, and back: its palette, then rows of like numbers, wide ones byte by byte.
-#include "formats/wang_ldi_layout.h"
+#include "formats/wang_ldi_grouped.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -59,7 +59,9 @@ bool heights_of_residuals(std::span<const std::byte> planes, Ldi& ldi) {
 
 uint64_t raw_bytes_of(const ImageSet& set, uint32_t side_px, uint64_t samples, uint64_t colours) {
     uint64_t of_sample = 3u + (set.has_normals ? 2u : 0u) + (set.has_splats ? 1u : 0u);
-    return 3 * colours + uint64_t(2) * side_px * side_px + of_sample * samples;
+    uint64_t pixels = uint64_t(side_px) * side_px;
+    if (!set.is_grouped) return 3 * colours + 2 * pixels + of_sample * samples;
+    return 4 * group_counts_of(samples).all() + 3 * colours + (pixels + 7) / 8 + (2 + of_sample) * samples;
 }
 
 std::vector<std::byte> bytes_of_ldi(const ImageSet& set, const Ldi& ldi) {
@@ -72,13 +74,30 @@ std::vector<std::byte> bytes_of_ldi(const ImageSet& set, const Ldi& ldi) {
     put_planes(bytes, counts);
     put_planes(bytes, residuals_of(ldi));
     for (uint8_t colour : ldi.colours) bytes.push_back(std::byte(colour));
-    for (size_t axis = 0; axis < 2; ++axis)
-        for (const auto& normal : ldi.normals) bytes.push_back(std::byte(normal[axis]));
-    for (uint8_t splat : ldi.splats) bytes.push_back(std::byte(splat));
+    put_normals_and_splats(ldi, bytes);
     return bytes;
 }
 
+void put_normals_and_splats(const Ldi& ldi, std::vector<std::byte>& bytes) {
+    for (size_t axis = 0; axis < 2; ++axis)
+        for (const auto& normal : ldi.normals) bytes.push_back(std::byte(normal[axis]));
+    for (uint8_t splat : ldi.splats) bytes.push_back(std::byte(splat));
+}
+
+void take_normals_and_splats(std::span<const std::byte> bytes, const ImageSet& set, Ldi& ldi) {
+    size_t samples = ldi.heights.size();
+    if (set.has_normals) {
+        ldi.normals.resize(samples);
+        for (size_t s = 0; s < samples; ++s) ldi.normals[s] = {int8_t(bytes[s]), int8_t(bytes[samples + s])};
+        bytes = bytes.subspan(2 * samples);
+    }
+    if (!set.has_splats) return;
+    ldi.splats.resize(samples);
+    for (size_t s = 0; s < samples; ++s) ldi.splats[s] = uint8_t(bytes[s]);
+}
+
 ImageFault ldi_of_bytes(std::span<const std::byte> bytes, const ImageSet& set, uint32_t level, const Entry& entry, Ldi& ldi) {
+    if (set.is_grouped) return ldi_of_grouped(bytes, set, level, entry, ldi);
     auto take = [&](size_t count) {
         auto taken = bytes.first(count);
         bytes = bytes.subspan(count);
@@ -101,16 +120,7 @@ ImageFault ldi_of_bytes(std::span<const std::byte> bytes, const ImageSet& set, u
     ldi.colours.resize(samples);
     std::span<const std::byte> colours = take(samples);
     for (size_t s = 0; s < samples; ++s) ldi.colours[s] = uint8_t(colours[s]);
-    if (set.has_normals) {
-        ldi.normals.resize(samples);
-        std::span<const std::byte> normals = take(2 * samples);
-        for (size_t s = 0; s < samples; ++s) ldi.normals[s] = {int8_t(normals[s]), int8_t(normals[samples + s])};
-    }
-    if (set.has_splats) {
-        ldi.splats.resize(samples);
-        std::span<const std::byte> splats = take(samples);
-        for (size_t s = 0; s < samples; ++s) ldi.splats[s] = uint8_t(splats[s]);
-    }
+    take_normals_and_splats(bytes, set, ldi);
     return fault_of_ldi(set, level, ldi);
 }
 

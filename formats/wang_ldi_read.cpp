@@ -20,9 +20,10 @@ ImageFault set_of_head(std::span<const std::byte> bytes, ImageSet& set) {
     uint32_t level_count = u32(head_at::levels), flags = u32(head_at::flags);
     set.levels.resize(std::min<size_t>(level_count, kMostLevels + 1));
     if (ImageFault fault = fault_of_counts(set)) return fault;
-    if (flags > (kHasNormals | kHasSplats) || u32(head_at::reserved) != 0)
+    if (flags > (kHasNormals | kHasSplats | kIsGrouped) || u32(head_at::reserved) != 0)
         return {4, fmt::format("flags {}, or a reserved number that is not 0", flags)};
     set.has_normals = (flags & kHasNormals) != 0, set.has_splats = (flags & kHasSplats) != 0;
+    set.is_grouped = (flags & kIsGrouped) != 0;
     set.tile_m = f64(head_at::tile_m), set.low_m = f64(head_at::low_m), set.high_m = f64(head_at::high_m);
     set.cell = {f64(head_at::eye_low_m),  f64(head_at::eye_high_m), f64(head_at::nearest_m),
                 f64(head_at::farthest_m), f64(head_at::focal_px),   f64(head_at::error_px)};

@@ -7,7 +7,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr std::array<std::string_view, 15> kRules{
+constexpr std::array<std::string_view, 16> kRules{
     "The sections WLDI, uncompressed, and WLDS, checked in parts, are both there.",
     "WLDI is 128 bytes, 16 for each level and 40 for each image, and no more.",
     "There are 1 to 65,536 tiles, 1 to 32 levels, 1 to 64 directions and 1 or 2 contexts, 2^20 images at most.",
@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 15> kRules{
     "A sample's colour is in its image's palette.",
     "A normal is on the octahedron's square, -127 to 127.",
     "A splat is wider than nothing.",
+    "Groups of grouped rows have as many numbers as they state, with zeros behind the last.",
 };
 
 bool is_between(double value, double low, double high) {
@@ -130,8 +131,10 @@ bool is_sampled_for(const ImageSet& set, uint32_t level, uint32_t direction, con
     SampledFor eyes = sampled_for(set, level, direction);
     double distance_m = glm::length(from_middle_m), heading_rad = std::atan2(from_middle_m.x, from_middle_m.y);
     double off_rad = std::abs(std::remainder(heading_rad - eyes.heading_rad, 2 * M_PI));
-    return above_m >= set.cell.eye_low_m && above_m <= set.cell.eye_high_m && distance_m >= eyes.nearest_m * (1 - kRounding) &&
-           distance_m <= eyes.farthest_m * (1 + kRounding) && off_rad <= eyes.half_width_rad + kRounding;
+    double slack_m = kRounding * std::max({1.0, std::abs(set.cell.eye_low_m), std::abs(set.cell.eye_high_m)});
+    return above_m >= set.cell.eye_low_m - slack_m && above_m <= set.cell.eye_high_m + slack_m &&
+           distance_m >= eyes.nearest_m * (1 - kRounding) && distance_m <= eyes.farthest_m * (1 + kRounding) &&
+           off_rad <= eyes.half_width_rad + kRounding;
 }
 
 uint32_t direction_for(const ImageSet& set, const glm::dvec2& from_middle_m) {

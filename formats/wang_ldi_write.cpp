@@ -1,6 +1,6 @@
 #include "formats/compression.h"
 #include "formats/container_rules.h"
-#include "formats/wang_ldi_layout.h"
+#include "formats/wang_ldi_grouped.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -31,7 +31,8 @@ std::vector<std::byte> bytes_of_head(const ImageSet& set) {
     auto u32 = [&](size_t at, size_t value) { store_le<uint32_t>(bytes, at, uint32_t(value)); };
     u32(head_at::tiles, set.tile_count), u32(head_at::levels, set.levels.size());
     u32(head_at::directions, set.direction_count), u32(head_at::contexts, set.context_count);
-    u32(head_at::flags, (set.has_normals ? kHasNormals : 0) | (set.has_splats ? kHasSplats : 0));
+    u32(head_at::flags,
+        (set.has_normals ? kHasNormals : 0) | (set.has_splats ? kHasSplats : 0) | (set.is_grouped ? kIsGrouped : 0));
     store_f64(bytes, head_at::tile_m, set.tile_m), store_f64(bytes, head_at::low_m, set.low_m);
     store_f64(bytes, head_at::high_m, set.high_m), store_f64(bytes, head_at::eye_low_m, set.cell.eye_low_m);
     store_f64(bytes, head_at::eye_high_m, set.cell.eye_high_m), store_f64(bytes, head_at::nearest_m, set.cell.nearest_m);
@@ -52,11 +53,15 @@ std::vector<std::byte> bytes_of_head(const ImageSet& set) {
 Result<Packed> packed(const ImageSet& set, uint32_t level, const Ldi& ldi) {
     if (std::string_view fault = fault_of_shape(set, level, ldi); !fault.empty()) return bug("an image", fault);
     if (ImageFault fault = fault_of_ldi(set, level, ldi)) return bug("an image", fault.text);
-    std::vector<std::byte> raw = bytes_of_ldi(set, ldi);
-    auto bytes = zstd_compressed("layered depth image", raw);
+    GroupedBytes raw;
+    if (set.is_grouped)
+        raw = grouped_bytes_of(set, level, ldi);
+    else
+        raw.bytes = bytes_of_ldi(set, ldi);
+    auto bytes = zstd_compressed("layered depth image", raw.bytes, raw.ends);
     if (!bytes) return tl::unexpected(bytes.error());
     uint64_t checksum = container::checksum_of(*bytes);
-    return Packed{std::move(*bytes), checksum, uint32_t(raw.size()), ldi.sample_count(), uint32_t(ldi.palette.size()),
+    return Packed{std::move(*bytes), checksum, uint32_t(raw.bytes.size()), ldi.sample_count(), uint32_t(ldi.palette.size()),
                   ldi.unseen_share};
 }
 

@@ -111,6 +111,15 @@ TEST(BakeWangImages, OnTrialMakesNoFileAndSaysTheSameOfItsTiles) {
     nlohmann::json again = nlohmann::json::parse(alone.out)["images"];
     trial.erase("seconds"), again.erase("seconds");
     EXPECT_TRUE(trial == again);
+    // What is timed besides changes none of it either, and every ray is shot again.
+    Ran timed = run(words_of(folder, "a.ovl", {"--json", "--trial", "2", "--judge", "40", "--rate"}));
+    nlohmann::json with_rate = nlohmann::json::parse(timed.out)["images"], rate = with_rate["rate"];
+    EXPECT_EQ(rate["rays"], with_rate["rays"]);
+    EXPECT_GT(rate["shadow_rays"], with_rate["samples"]);
+    for (const char* share : {"sampling_share", "share"}) EXPECT_GT(rate[share], 0);
+    with_rate.erase("rate"), with_rate.erase("seconds");
+    EXPECT_TRUE(with_rate == again);
+    expect_refusal(run(words_of(folder, "a.ovl", {"--rate"})), 2, "bake-wang-ldi", {"--rate: times a trial"});
     expect_refusal(run(words_of(folder, "a.ovl", {"--trial", "1", "--part", "1/2"})), 2, "bake-wang-ldi",
                    {"--trial 1 and --part"});
 }

@@ -1,6 +1,7 @@
 // That formats/spec/wang_ldi.md says of layered depth images what the code does.
 #include <gtest/gtest.h>
 
+#include "formats/wang_ldi_grouped.h"
 #include "tests/corrupt/terrain_fixtures.h"
 #include "tests/corrupt/wang_images_fixtures.h"
 #include "tests/formats/scratch_folder.h"
@@ -27,6 +28,14 @@ TEST(ImagesDocument, ShowsTheVeryBytesOfTheExamplesFirstImage) {
     ASSERT_NE(at, std::string::npos);
     Bytes documented = terrain::fixtures::bytes_of_hexdump(text.substr(at));
     EXPECT_TRUE(documented == bytes_of_ldi(post(), images_of_post()[0]));
+}
+
+TEST(ImagesDocument, ShowsTheVeryBytesOfTheSameImageGrouped) {
+    std::string text = document();
+    size_t at = text.find("## The same image, grouped");
+    ASSERT_NE(at, std::string::npos);
+    Bytes documented = terrain::fixtures::bytes_of_hexdump(text.substr(at));
+    EXPECT_TRUE(documented == grouped_bytes_of(grouped_post(), 0, images_of_post()[0]).bytes);
 }
 
 TEST(ImagesDocument, HasTheSentenceOfEveryRule) {

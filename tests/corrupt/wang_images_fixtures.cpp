@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "formats/container_rules.h"
+#include "formats/wang_ldi_grouped.h"
 
 namespace overlook::wang_ldi::image_fixtures {
 namespace {
@@ -75,7 +76,7 @@ std::vector<Fixture> broken_heads() {
             {"l03_most_images.ovl", 3, with([](Pieces& pieces) {
                  store_le<uint32_t>(pieces.directory, 0, 65536), store_le<uint32_t>(pieces.directory, 8, 64);
              })},
-            {"l04_flags.ovl", 4, with_u32(16, 4)},
+            {"l04_flags.ovl", 4, with_u32(16, 8)},
             {"l04_reserved.ovl", 4, with_u32(20, 1)},
             {"l04_reserved_of_image.ovl", 4, with_entry(1, 36, 1)},
             {"l05_no_tile.ovl", 5, with_f64(24, 0)},
@@ -132,6 +133,37 @@ std::vector<Fixture> broken_images() {
             {"l15_splat.ovl", 15, of([](std::vector<Ldi>& ldis) { ldis[1].splats[0] = 0; })}};
 }
 
+Bytes of_grouped_raw(const std::function<void(Bytes&)>& change) {
+    std::vector<Ldi> ldis = images_of_post();
+    std::vector<Bytes> raw;
+    for (uint32_t level : {0u, 1u}) raw.push_back(grouped_bytes_of(grouped_post(), level, ldis[level]).bytes);
+    change(raw[0]);
+    return Pieces::of_raw(grouped_post(), ldis, raw).file();
+}
+
+std::vector<Fixture> broken_groups() {
+    // Raw bytes of image 0: sizes to 16, palette to 22, which pixels have samples to 23, counts to 31, heights to 39, colours
+    // to 43.
+    auto with_byte = [](size_t at, int value) { return of_grouped_raw([=](Bytes& raw) { raw[at] = std::byte(value); }); };
+    return {
+        {"l11_grouped_sample_less.ovl", 11, with_byte(23, 1)},
+        {"l11_grouped_many_samples.ovl", 11, with_byte(27, 255)},
+        {"l11_grouped_beyond.ovl", 11, with_byte(22, 0x89)},
+        {"l12_grouped_above_16_bits.ovl", 12, of_grouped_raw([](Bytes& raw) { raw[34] = raw[38] = std::byte(255); })},
+        {"l12_grouped_above_all.ovl", 12, with_byte(34, 6)},
+        {"l13_grouped_colour.ovl", 13, with_byte(41, 2)},
+        {"l14_grouped_normal.ovl", 14, with_byte(44, 0x80)},
+        {"l15_grouped_splat.ovl", 15, with_byte(54, 0)},
+        {"l16_count_more.ovl", 16, with_byte(0, 3)},
+        {"l16_count_less.ovl", 16, with_byte(0, 1)},
+        {"l16_height_in_other_group.ovl", 16, of_grouped_raw([](Bytes& raw) { raw[4] = std::byte(1), raw[8] = std::byte(3); })},
+        {"l16_height_less.ovl", 16, with_byte(8, 1)},
+        {"l16_most_heights.ovl", 16, with_byte(7, 255)},
+        {"l16_colour_less.ovl", 16, with_byte(12, 3)},
+        {"l16_most_colours.ovl", 16, with_byte(15, 255)},
+        {"l16_number_behind.ovl", 16, with_byte(26, 1)}};
+}
+
 Bytes plain() {
     ImageSet set = post();
     set.has_normals = set.has_splats = false, set.to_sun = {0, 0.6, 0.8}, set.levels.pop_back();
@@ -145,12 +177,15 @@ Bytes plain() {
 }  // namespace
 
 std::vector<Fixture> whole_files() {
-    return {{"post.ovl", 0, Pieces::of(post(), images_of_post()).file()}, {"plain.ovl", 0, plain()}};
+    return {{"post.ovl", 0, Pieces::of(post(), images_of_post()).file()},
+            {"plain.ovl", 0, plain()},
+            {"grouped.ovl", 0, Pieces::of(grouped_post(), images_of_post()).file()}};
 }
 
 std::vector<Fixture> corrupt_files() {
     std::vector<Fixture> all;
-    for (const auto& some : {broken_heads(), broken_levels(), broken_images()}) all.insert(all.end(), some.begin(), some.end());
+    for (const auto& some : {broken_heads(), broken_levels(), broken_images(), broken_groups()})
+        all.insert(all.end(), some.begin(), some.end());
     return all;
 }
 

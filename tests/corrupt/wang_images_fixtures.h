@@ -15,6 +15,8 @@ using container::fixtures::Fixture;
 // One tile of 2 m, two levels of 2 and 1 pixels a side, one direction, with normals and splats: the worked example of
 // formats/spec/wang_ldi.md.
 ImageSet post();
+// The same, stored predicted and grouped.
+ImageSet grouped_post();
 // A post of three samples in the south-west pixel of level 0, one sample in the north-east; at level 1 two samples.
 std::vector<Ldi> images_of_post();
 

@@ -1,4 +1,5 @@
 #include "formats/container_rules.h"
+#include "formats/wang_ldi_grouped.h"
 #include "tests/corrupt/terrain_parts.h"
 #include "tests/corrupt/wang_images_fixtures.h"
 
@@ -12,6 +13,12 @@ ImageSet post() {
     set.has_normals = set.has_splats = true;
     set.level_fade = 0.0625f, set.direction_fade = 0.125f;
     set.levels = {{2, 1, 0.25f, 1}, {1, 8, 0.5f, 1.5f}};
+    return set;
+}
+
+ImageSet grouped_post() {
+    ImageSet set = post();
+    set.is_grouped = true;
     return set;
 }
 
@@ -44,7 +51,8 @@ Pieces Pieces::of_raw(const ImageSet& set, const std::vector<Ldi>& ldis, const s
 
 Pieces Pieces::of(const ImageSet& set, const std::vector<Ldi>& ldis) {
     std::vector<Bytes> raw;
-    for (const Ldi& ldi : ldis) raw.push_back(bytes_of_ldi(set, ldi));
+    for (size_t i = 0; i < ldis.size(); ++i)
+        raw.push_back(set.is_grouped ? grouped_bytes_of(set, which_of(set, i).level, ldis[i]).bytes : bytes_of_ldi(set, ldis[i]));
     return of_raw(set, ldis, raw);
 }
 

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "formats/compression.h"
+#include "formats/wang_ldi_grouped.h"
 #include "tests/corrupt/wang_images_fixtures.h"
 #include "tests/formats/scratch_folder.h"
 
@@ -41,9 +43,9 @@ ImageSet field() {
 }
 
 TEST(LayeredImages, ComeBackAsTheyWereWritten) {
-    for (int variant = 0; variant < 4; ++variant) {
+    for (int variant = 0; variant < 8; ++variant) {
         ImageSet set = field();
-        set.has_normals = (variant & 1) != 0, set.has_splats = (variant & 2) != 0;
+        set.has_normals = (variant & 1) != 0, set.has_splats = (variant & 2) != 0, set.is_grouped = (variant & 4) != 0;
         ScratchFolder folder;
         auto file = container::Writer::create(folder / "a.ovl", container::tag("WANG"));
         ASSERT_TRUE(file);
@@ -70,6 +72,80 @@ TEST(LayeredImages, ComeBackAsTheyWereWritten) {
             EXPECT_TRUE(*ldi == scattered(set, which_of(set, i).level, uint32_t(i))) << i;
         }
     }
+}
+
+// What packed() wrote, read without a file.
+Ldi read_back(const ImageSet& set, uint32_t level, const Packed& packed) {
+    std::vector<std::byte> raw(packed.raw_bytes);
+    EXPECT_EQ(zstd_decode(packed.bytes, raw), "");
+    Ldi ldi;
+    Entry entry{0, 0, 0, packed.raw_bytes, packed.sample_count, packed.colour_count, packed.unseen_share};
+    ImageFault fault = ldi_of_bytes(raw, set, level, entry, ldi);
+    EXPECT_FALSE(fault) << fault.text;
+    return ldi;
+}
+
+// Of every count of groups: few samples, many, and none.
+TEST(LayeredImages, ComeBackGroupedWhateverTheirSize) {
+    ImageSet set = field();
+    set.is_grouped = true, set.has_normals = set.has_splats = false;
+    set.levels = {{64, 1, 0.00003f, 1}, {20, 3, 0.004f, 1}, {6, 9, 0.004f, 1}, {1, 12, 0.004f, 1}};
+    std::vector<uint64_t> counts;
+    for (uint32_t level = 0; level < 4; ++level) {
+        Ldi ldi = scattered(set, level, 7 + level);
+        if (level == 3) ldi.first = {0, 0}, ldi.heights.clear(), ldi.colours.clear(), ldi.palette.clear();
+        auto bytes = packed(set, level, ldi);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        EXPECT_TRUE(read_back(set, level, *bytes) == ldi) << level;
+        counts.push_back(group_counts_of(ldi.sample_count()).all());
+    }
+    EXPECT_GT(counts[0], counts[1]);
+    EXPECT_GT(counts[1], counts[2]);
+}
+
+// Columns that go on from pixel to pixel, as surfaces do, take fewer bytes than unpredicted.
+TEST(LayeredImages, OfSurfacesTakeFewerBytesGrouped) {
+    ImageSet set = field();
+    set.has_normals = set.has_splats = false, set.levels = {{96, 1, 0.0005f, 1}};
+    Ldi ldi;
+    ldi.side_px = 96, ldi.first = {0}, ldi.palette = {};
+    for (int c = 0; c < 64; ++c) ldi.palette.push_back({uint8_t(c), uint8_t(c), 7});
+    uint32_t seed = 1;
+    auto noise = [&](uint32_t most) { return ((seed = seed * 1664525 + 1013904223) >> 8) % most; };
+    for (uint32_t p = 0; p < 96 * 96; ++p) {
+        for (uint32_t layer = 0; layer < 4; ++layer) {
+            ldi.heights.push_back(uint16_t(700 * layer + 3 * (p % 96) + 5 * (p / 96) + noise(9)));
+            ldi.colours.push_back(uint8_t(16 * layer + noise(7)));
+        }
+        ldi.first.push_back(ldi.sample_count());
+    }
+    auto plain = packed(set, 0, ldi);
+    set.is_grouped = true;
+    auto grouped = packed(set, 0, ldi);
+    ASSERT_TRUE(plain && grouped);
+    EXPECT_LT(grouped->bytes.size(), plain->bytes.size() * 8 / 10);
+    EXPECT_TRUE(read_back(set, 0, *grouped) == ldi);
+}
+
+// Whatever stands in grouped rows, what is read of them keeps the rules.
+TEST(LayeredImages, OfAnyGroupedBytesAreReadOrRefused) {
+    ImageSet set = image_fixtures::grouped_post();
+    Ldi whole = image_fixtures::images_of_post()[0];
+    std::vector<std::byte> raw = grouped_bytes_of(set, 0, whole).bytes;
+    Entry entry{0, 0, 0, uint32_t(raw.size()), whole.sample_count(), uint32_t(whole.palette.size()), 0};
+    size_t refused = 0;
+    for (size_t at = 0; at < raw.size(); ++at)
+        for (int value : {0, 1, 2, 3, 127, 128, 255}) {
+            std::vector<std::byte> other = raw;
+            other[at] = std::byte(value);
+            Ldi ldi;
+            if (ldi_of_bytes(other, set, 0, entry, ldi)) {
+                ++refused;
+                continue;
+            }
+            EXPECT_TRUE(packed(set, 0, ldi)) << at << " " << value;
+        }
+    EXPECT_GT(refused, 100u);
 }
 
 TEST(LayeredImages, AreNotWrittenWhereAReaderWouldRefuseThem) {

@@ -58,7 +58,7 @@ struct Hit {
 enum class Layout { flattened, instances };
 
 // Which of a processor's instructions are used: the best that it has, or those that all have, so that a ray hits the same on
-// every one, to the last bit.
+// every one, to the last bit, that estimates reciprocals alike: Embree refines what rcpps says, which SSE leaves to the maker.
 enum class Instructions { best, everywhere };
 // "everywhere", or which are the best of this processor: "avx512", "avx2", "avx", "sse4.2" or "sse2".
 std::string_view name_of(Instructions instructions);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "formats/steady_math.h"
 #include "tools/bake/mesh_input.h"
 #include "tools/bake/wang_ldi/model_of_mesh.h"
 
@@ -68,7 +69,8 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
     app.add_option(
            "--instructions", args.instructions,
            "best: the fastest that this processor has for rays; on others the last bits of samples differ, and their parts "
-           "are not taken. everywhere: those that all have, for the same samples on all, in a quarter more time")
+           "are not taken. everywhere: those that all have, for the same samples on all that estimate reciprocals alike (rcpps: "
+           "processors of one maker do), in a quarter more time")
         ->check(CLI::IsMember({"best", "everywhere"}))
         ->capture_default_str();
     app.add_option("--textures", args.textures,
@@ -87,6 +89,9 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--trial", args.trial_tiles,
                    "Bake the images of so many tiles only, and no file: to see what all take and how good they are")
         ->check(CLI::Range(1u, 65536u));
+    app.add_flag("--rate", args.is_timed,
+                 "With --trial: shoot each image's rays once more and do nothing with what they meet, and say at which share of "
+                 "that rate images are sampled and lit");
 }
 
 void add_light_options(CLI::App& app, ImageArgs& args) {
@@ -187,17 +192,18 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     if (!parse_texture_side(args.textures, bake.textures.side_px))
         return bad_command("--textures {}: 1, 2, 4 .. {} texels a side are wanted, or none", args.textures,
                            wang_ldi::kMostTextureSide_px);
-    double focal_px = args.height_px / (2 * std::tan(args.fov_y_deg * M_PI / 360));
+    double focal_px = args.height_px / (2 * steady::tan(args.fov_y_deg * M_PI / 360));
     bake.levels.set.cell = {args.eye_low_m, args.eye_high_m, args.nearest_m, args.farthest_m, focal_px, args.error_px};
     bake.levels.level_ratio = args.level_ratio, bake.levels.direction_px = args.direction_px;
     bake.levels.set.level_fade = float(args.level_fade), bake.levels.set.direction_fade = float(args.direction_fade);
     bake.sampling.unseen_goal = args.unseen, bake.textures.error_goal = args.texture_error;
     bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views, bake.trial_tiles = args.trial_tiles;
+    bake.is_timed = args.is_timed;
     bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
     bake.has_gloss = args.gloss == "by-direction";
     double heading = args.sun_heading_deg * M_PI / 180, elevation = args.sun_elevation_deg * M_PI / 180;
-    bake.light.to_sun =
-        glm::vec3(std::sin(heading) * std::cos(elevation), std::cos(heading) * std::cos(elevation), std::sin(elevation));
+    steady::SinCos round = steady::sin_cos(heading), up = steady::sin_cos(elevation);
+    bake.light.to_sun = glm::vec3(round.sin * up.cos, round.cos * up.cos, up.sin);
     bake.light.sun_rays = args.sun_rays, bake.light.sky_rays = args.sky_rays;
     if (args.instructions == "everywhere") bake.instructions = rays::Instructions::everywhere;
     bake.memory_bytes = args.ray_memory_bytes, bake.version = command::version();
@@ -205,6 +211,7 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     if (args.parts.empty() && args.trial_tiles == 0) bake.parts_folder = output + ".parts";
     if (args.trial_tiles > 0 && !args.part.empty())
         return bad_command("--trial {} and --part {}: give one of them", args.trial_tiles, args.part);
+    if (args.is_timed && args.trial_tiles == 0) return bad_command("--rate: times a trial; give --trial too");
     if (args.constants == "paper") take_paper_constants(bake);
     return bake;
 }

@@ -22,7 +22,7 @@ struct ImageArgs {
     std::string light = "baked", gloss = "by-direction";
     double sun_heading_deg = 140, sun_elevation_deg = 50, leaf_transmission = 0.35;
     uint32_t sun_rays = 8, sky_rays = 32;
-    bool has_border_images = false;
+    bool has_border_images = false, is_timed = false;
     uint64_t ray_memory_bytes = uint64_t(4) << 30;
     std::string parts, part;  // folder of what is done; "K/N"
 };

@@ -82,6 +82,27 @@ ordered_json textures_json(const wang_ldi::ImageReport& report) {
     return json;
 }
 
+ordered_json rate_json(const wang_ldi::Rate& rate) {
+    return {{"rays", rate.rays},
+            {"shadow_rays", rate.shadow_rays},
+            {"sampled_s", rate.sampled_s},
+            {"bare_s", rate.bare_s},
+            {"lit_s", rate.lit_s},
+            {"bare_shadow_s", rate.bare_shadow_s},
+            {"sampling_share", rate.sampling_share()},
+            {"share", rate.share()}};
+}
+
+std::string rate_in_words(const wang_ldi::Rate& rate) {
+    auto million_a_second = [](uint64_t rays, double seconds) { return double(rays) / std::max(seconds, 1e-9) * 1e-6; };
+    return fmt::format(
+        "sampled at {:.1f} % of the rate of the same rays alone ({:.2f} of {:.2f} million a second and core), lit at {:.1f} % "
+        "({:.2f} of {:.2f} million shadow rays), together {:.1f} %",
+        100 * rate.sampling_share(), million_a_second(rate.rays, rate.sampled_s), million_a_second(rate.rays, rate.bare_s),
+        100 * rate.bare_shadow_s / std::max(rate.lit_s, 1e-9), million_a_second(rate.shadow_rays, rate.lit_s),
+        million_a_second(rate.shadow_rays, rate.bare_shadow_s), 100 * rate.share());
+}
+
 }  // namespace
 
 std::string images_json(const wang_ldi::ImageReport& report) {
@@ -92,6 +113,7 @@ std::string images_json(const wang_ldi::ImageReport& report) {
     if (report.trial_tiles > 0) json["trial_tiles"] = report.trial_tiles;
     json["images_above_goal"] = report.above_goal;
     json["taken_from_parts"] = report.taken_from_parts, json["baked"] = report.made, json["seconds"] = report.seconds;
+    if (report.rate.bare_s > 0) json["rate"] = rate_json(report.rate);
     if (report.texture_side_px > 0) json["textures"] = textures_json(report);
     if (report.leaves.masked_before > 0)
         json["leaves"] = {{"masked_triangles", report.leaves.masked_before},
@@ -137,6 +159,7 @@ void say_images(const wang_ldi::ImageReport& report, const command::Common& comm
         command::note(common, fmt::format("{} of {} images have more unseen than --unseen asks for, {:.2f} % at most: they took "
                                           "the most rays that are shot; ask for more error or a greater nearest distance",
                                           report.above_goal, total.images, 100 * total.unseen_most));
+    if (report.rate.bare_s > 0) command::note(common, rate_in_words(report.rate));
     if (total.own.error_pixels > 0) {
         auto share = [](uint64_t of, const Judgement& all) {
             return 100 * double(of) / double(std::max<uint64_t>(1, all.pixels));

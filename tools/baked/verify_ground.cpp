@@ -42,6 +42,22 @@ Result<Read> read_all(const container::Reader& file, uint32_t tile_count, const 
     return read;
 }
 
+std::string_view in_words(wang_ldi::Verdict verdict) {
+    switch (verdict) {
+        case wang_ldi::Verdict::hold:
+            return "every promise holds";
+        case wang_ldi::Verdict::broken:
+            return "a promise is broken";
+        default:
+            return "unproven: so many objects stand so close that looking at all pairs was given up; none looked at overlaps";
+    }
+}
+
+Exit exit_of(wang_ldi::Verdict verdict) {
+    if (verdict == wang_ldi::Verdict::hold) return Exit::done;
+    return verdict == wang_ldi::Verdict::broken ? Exit::answer_is_no : Exit::impossible;
+}
+
 }  // namespace
 
 int verify_ground(const VerifyArgs& args, const container::Reader& file, const command::Common& common) {
@@ -50,10 +66,11 @@ int verify_ground(const VerifyArgs& args, const container::Reader& file, const c
     auto read = read_all(file, uint32_t(ground->set.tiles.size()), common);
     if (!read) return command::fail(kName, read.error());
     wang_ldi::OverlapReport overlaps = wang_ldi::check_overlaps(ground->set, ground->planting);
-    bool holds = overlaps.tight_overlaps == 0 && !overlaps.is_cut_short;
+    wang_ldi::Verdict verdict = wang_ldi::verdict_of(overlaps);
     if (common.json) {
         nlohmann::ordered_json json{{"file", args.file},
-                                    {"holds", holds},
+                                    {"holds", verdict == wang_ldi::Verdict::hold},
+                                    {"unproven", verdict == wang_ldi::Verdict::unproven},
                                     {"neighbourhoods", overlaps.neighbourhoods},
                                     {"tight_overlaps", overlaps.tight_overlaps},
                                     {"images", read->images},
@@ -67,9 +84,9 @@ int verify_ground(const VerifyArgs& args, const container::Reader& file, const c
                    with_commas(read->images), with_commas(read->samples), with_commas(read->textures));
         if (read->scene_pictures > 0)
             fmt::print("a whole scene's image and {} pictures of it are whole\n", read->scene_pictures - 1);
-        fmt::print("{}\n", holds ? "every promise holds" : "a promise is broken");
+        fmt::print("{}\n", in_words(verdict));
     }
-    return int(holds ? Exit::done : Exit::answer_is_no);
+    return int(exit_of(verdict));
 }
 
 }  // namespace overlook::baked

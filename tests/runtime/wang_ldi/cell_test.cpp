@@ -84,6 +84,11 @@ TEST(SampledCell, IsLeftAboveAndBelowAndNearAndFar) {
     EXPECT_TRUE(is_sampled_for(set, 0, 0, {0, 2}, 1.7));
     EXPECT_FALSE(is_sampled_for(set, 0, 0, {0, 2}, 0.9));
     EXPECT_FALSE(is_sampled_for(set, 0, 0, {0, 2}, 2.6));
+    for (double sign : {-1.0, 1.0}) {
+        double edge_m = sign < 0 ? set.cell.eye_low_m : set.cell.eye_high_m;
+        EXPECT_TRUE(is_sampled_for(set, 0, 0, {0, 2}, edge_m + sign * 5e-7));
+        EXPECT_FALSE(is_sampled_for(set, 0, 0, {0, 2}, edge_m + sign * 5e-6));
+    }
     EXPECT_TRUE(is_sampled_for(set, 0, 0, {0, 0.876}, 1.7));
     EXPECT_FALSE(is_sampled_for(set, 0, 0, {0, 0.874}, 1.7));
     EXPECT_TRUE(is_sampled_for(set, 6, 4, {0, -16.87}, 1.7));

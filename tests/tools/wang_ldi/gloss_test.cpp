@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/wang_ldi/plants.h"
+#include "tools/bake/wang_ldi/shade_rays.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -47,13 +48,14 @@ TEST(Gloss, OfTheSunIsSentSomewhere) {
     rays::Scene open = open_ground();
     Light light = sun_alone({0.5f, 0, 1});
     double cosine = 1 / std::sqrt(1.25), sum = 0;
+    ShadowRays rays;
     constexpr int kRings = 200, kSectors = 400;
     for (int ring = 0; ring < kRings; ++ring)
         for (int sector = 0; sector < kSectors; ++sector) {
             double off = (ring + 0.5) / kRings * M_PI / 2, round = (sector + 0.5) / kSectors * 2 * M_PI;
             glm::dvec3 eye(std::sin(off) * std::cos(round), std::sin(off) * std::sin(round), std::cos(off));
             double solid = std::sin(off) * (M_PI / 2 / kRings) * (2 * M_PI / kSectors);
-            sum += double(mirrored(open, plate(0.4f, 1, glm::vec3(eye)), light, 1, {0, 0}).g) * std::cos(off) * solid;
+            sum += double(mirrored(open, plate(0.4f, 1, glm::vec3(eye)), light, 1, {0, 0}, rays).g) * std::cos(off) * solid;
         }
     // What falls on it: pi times the sun's share that white sends back, by the cosine.
     EXPECT_NEAR(sum / (M_PI * cosine), 0.9633, 0.005);

@@ -149,6 +149,17 @@ TEST(OverlapCheck, OfAHostilePlantingIsCutShortWithAWord) {
     EXPECT_LT(cut.tight_overlaps, all.tight_overlaps);
 }
 
+// What was looked at in part is no proof; two that overlap are one, of the contrary.
+TEST(OverlapCheck, CutShortIsUnprovenUnlessItIsBrokenAlready) {
+    Planting apart = meadow(20), together = scattered(2000, 1, {0.9f}, 1, 5);
+    for (auto& tile : apart.tiles) std::erase_if(tile, [](const Planted& object) { return object.model == 1; });
+    EXPECT_EQ(verdict_of(check_overlaps(two_tiles(), apart)), Verdict::hold);
+    OverlapReport cut = check_overlaps(two_tiles(), apart, 500);
+    EXPECT_TRUE(cut.is_cut_short);
+    EXPECT_EQ(verdict_of(cut), Verdict::unproven);
+    EXPECT_EQ(verdict_of(check_overlaps(two_tiles(), together, 100'000)), Verdict::broken);
+}
+
 PlantOptions options_of(double tile_size_m, float packing_radius_m) {
     PlantOptions options;
     options.tile_size_m = tile_size_m;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "formats/srgb.h"
+#include "formats/steady_math.h"
 #include "tools/bake/mesh/gltf_document.h"
 #include "tools/bake/mesh/gltf_json.h"
 
@@ -32,7 +33,7 @@ void read_uv_transform(const Json& o, const std::string& at, Values<Json>& value
     double offset[2] = {0, 0}, scale[2] = {1, 1};
     (void)values.numbers(o, "offset", offset, 2, at);
     (void)values.numbers(o, "scale", scale, 2, at);
-    const double angle_rad = values.number(o, "rotation", 0, at), c = std::cos(angle_rad), s = std::sin(angle_rad);
+    const double angle_rad = values.number(o, "rotation", 0, at), c = steady::cos(angle_rad), s = steady::sin(angle_rad);
     const glm::dmat3 translation(1, 0, 0, 0, 1, 0, offset[0], offset[1], 1), rotation(c, -s, 0, s, c, 0, 0, 0, 1);
     material.uv_transform = translation * rotation * glm::dmat3(scale[0], 0, 0, 0, scale[1], 0, 0, 0, 1);
     material.uv_set = uint32_t(std::min<uint64_t>(values.whole(o, "texCoord", material.uv_set, at), 99));

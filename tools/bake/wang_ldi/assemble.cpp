@@ -10,6 +10,8 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr uint32_t kSamplesPerColour = 24, kLeastColours = 16;
+// Of sunflowers twice as many take a twelfth more bytes; E of 300 views is 0.4214 for 0.4216, its p99 the same.
+constexpr uint32_t kMostColoursBaked = 128;
 
 struct Kept {
     uint32_t pixel = 0, sample = 0;
@@ -68,7 +70,7 @@ Ldi assembled(const ImageSet& set, uint32_t level, const Sampled& sampled, std::
     }
     for (size_t p = 1; p < ldi.first.size(); ++p) ldi.first[p] += ldi.first[p - 1];
     // A small image has few colours, or they would outweigh it.
-    auto most = std::clamp(uint32_t(codes.size() / kSamplesPerColour), kLeastColours, kMostColours);
+    auto most = std::clamp(uint32_t(codes.size() / kSamplesPerColour), kLeastColours, kMostColoursBaked);
     Palette palette = palette_of(codes, most);
     ldi.palette = std::move(palette.colours), ldi.colours = std::move(palette.indices);
     return ldi;

@@ -9,9 +9,9 @@
 
 #include "formats/parallel.h"
 #include "runtime/wang_ldi/random.h"
-#include "tools/bake/wang_ldi/assemble.h"
 #include "tools/bake/wang_ldi/bake_key.h"
 #include "tools/bake/wang_ldi/bake_textures.h"
+#include "tools/bake/wang_ldi/tile_bake.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -21,75 +21,7 @@ constexpr const char* kNoMemory =
     "threads";
 constexpr uint64_t kPaperRays = 2'500'000;
 constexpr uint32_t kPaperEyes = 64;
-constexpr uint64_t kNeighbourStream = 41, kSampleStream = 42, kLightStream = 43, kJudgeStream = 44, kTextureStream = 45;
-
-// How many tiles have images made.
-uint32_t tiles_tried(const ImageBake& bake, const ImageSet& set) {
-    return bake.trial_tiles == 0 ? set.tile_count : std::min(bake.trial_tiles, set.tile_count);
-}
-
-// The images of one tile in one context: what is done by several threads.
-class TileBake {
-  public:
-    TileBake(const Models& models, const ImageBake& bake, const ImageSet& set) : models_(models), bake_(bake), set_(set) {}
-    // foreign: of other neighbours, to be judged among; or null.
-    Result<Shard> image(std::span<const TraceStage> stages, const TraceStage* foreign, const Which& which) const;
-    Shard texture(std::span<const TraceStage> stages, const TextureSet& set, uint64_t index) const;
-
-  private:
-    // What is baked is lit by; what it is judged by keeps its gloss.
-    Light own_light() const {
-        Light light = bake_.light;
-        light.has_gloss = bake_.has_gloss;
-        return light;
-    }
-    std::vector<glm::vec3> colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
-                                      uint64_t seed) const;
-    const Models& models_;
-    const ImageBake& bake_;
-    const ImageSet& set_;
-};
-
-std::vector<glm::vec3> TileBake::colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
-                                            uint64_t seed) const {
-    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, middle_eye_m(wedge), own_light(), seed);
-    std::vector<glm::vec3> colours;
-    for (const Sample& sample : sampled.samples) colours.push_back(sample.albedo);
-    return colours;
-}
-
-Result<Shard> TileBake::image(std::span<const TraceStage> stages, const TraceStage* foreign, const Which& which) const {
-    auto index = int64_t(index_of(set_, which));
-    SampleOptions options = bake_.sampling;
-    options.seed = hash_of(bake_.seed, kSampleStream, index, 0);
-    Wedge wedge = wedge_of(set_, which.level, which.direction);
-    Sampled all = sampled(models_, stages, wedge, options);
-    Ldi ldi = assembled(set_, which.level, all, colours_of(stages, all, wedge, hash_of(bake_.seed, kLightStream, index, 0)));
-    auto bytes = packed(set_, which.level, ldi);
-    if (!bytes) return tl::unexpected(bytes.error());
-    Shard shard{std::move(*bytes), all.rays, all.hits, all.eyes, {}, {}};
-    if (uint32_t views = views_of(set_, which, bake_.judged_views, tiles_tried(bake_, set_)); views > 0) {
-        Judging judging;
-        judging.views = views, judging.seed = hash_of(bake_.seed, kJudgeStream, index, 0);
-        shard.judgement = judged(models_, stages[0], set_, which, ldi, bake_.light, judging);
-        if (foreign) shard.foreign = judged(models_, *foreign, set_, which, ldi, bake_.light, judging);
-    }
-    return shard;
-}
-
-Shard TileBake::texture(std::span<const TraceStage> stages, const TextureSet& set, uint64_t index) const {
-    TextureOptions options = bake_.textures;
-    options.seed = hash_of(bake_.seed, kTextureStream, int64_t(index), 0);
-    auto direction = uint32_t(index % set.direction_count);
-    TextureSampled all = texture_of(models_, stages, set, direction, own_light(), options);
-    TextureJudgement judgement;
-    if (bake_.judged_views > 0) {
-        Judging judging;
-        judging.views = 1, judging.seed = hash_of(bake_.seed, kJudgeStream, int64_t(index), 1);
-        judgement = judged_texture(models_, stages[0], set, all.texture, direction, set_.cell.focal_px, bake_.light, judging);
-    }
-    return shard_of_texture(all, judgement);
-}
+constexpr uint64_t kNeighbourStream = 41;
 
 class SetBake {
   public:
@@ -110,7 +42,7 @@ class SetBake {
     // Of a tile, first its images, then its textures. done: called by this thread with the share of them.
     Result<void> bake_tile(uint32_t context, uint32_t tile, std::vector<Shard>& shards, const std::function<void(double)>& done);
     // index: of the images, or behind them of the textures.
-    Result<Shard> made(std::span<const TraceStage> stages, uint32_t context, uint64_t index) const;
+    Result<Shard> made(std::span<const TraceStage> stages, uint32_t context, uint64_t index, Rate& rate) const;
     Result<void> bake_all(ImageWriter* images, const std::function<void(double)>& progress);
     void add_rows(uint64_t first, const std::vector<Shard>& shards);
     Result<void> write_all(container::Writer& writer, const std::function<void(double)>& progress);
@@ -150,10 +82,10 @@ Result<std::vector<TraceStage>> SetBake::stages_of(uint32_t context, uint32_t ti
     return stages;
 }
 
-Result<Shard> SetBake::made(std::span<const TraceStage> stages, uint32_t context, uint64_t index) const {
+Result<Shard> SetBake::made(std::span<const TraceStage> stages, uint32_t context, uint64_t index, Rate& rate) const {
     size_t own = sampled_stages(context);
     const TraceStage* foreign = stages.size() > own ? &stages.back() : nullptr;
-    if (index < set_.ldi_count()) return one_.image(stages.first(own), foreign, which_of(set_, index));
+    if (index < set_.ldi_count()) return one_.image(stages.first(own), foreign, which_of(set_, index), rate);
     return one_.texture(stages.first(own), textures_, index - set_.ldi_count());
 }
 
@@ -183,8 +115,13 @@ Result<void> SetBake::bake_tile(uint32_t context, uint32_t tile, std::vector<Sha
             if (outcome) outcome = tl::unexpected(error);
         };
         try {
-            auto shard = made(*stages, context, index_of(missing[m]));
+            Rate rate;
+            auto shard = made(*stages, context, index_of(missing[m]), rate);
             if (!shard) return fail(shard.error());
+            {
+                std::lock_guard lock(mutex);
+                report_.rate.add(rate);
+            }
             if (auto kept = kept_.keep(index_of(missing[m]), *shard); !kept) return fail(kept.error());
             shards[missing[m]] = std::move(*shard);
             size_t count = ++finished;
@@ -285,7 +222,7 @@ Result<ImageReport> bake_images(container::Writer& writer, const TileSet& tiles,
     glm::dvec2 heights = heights_of(models, planting);
     levels.set.tile_m = planting.tile_size_m, levels.set.low_m = heights.x, levels.set.high_m = heights.y;
     levels.set.tile_count = uint32_t(tiles.tiles.size()), levels.set.context_count = bake.has_border_images ? 2 : 1;
-    levels.set.has_normals = bake.is_relit;
+    levels.set.has_normals = bake.is_relit, levels.set.is_grouped = true;
     levels.set.to_sun = bake.is_relit ? glm::dvec3(0) : glm::normalize(glm::dvec3(bake.light.to_sun));
     auto set = leveled(levels);
     if (!set) return tl::unexpected(set.error());

@@ -9,6 +9,7 @@
 
 #include "tools/bake/wang_ldi/judge.h"
 #include "tools/bake/wang_ldi/levels.h"
+#include "tools/bake/wang_ldi/rate.h"
 #include "tools/bake/wang_ldi/shards.h"
 #include "tools/bake/wang_ldi/textures.h"
 #include "tools/bake/wang_ldi/trim.h"
@@ -25,6 +26,7 @@ struct ImageBake {
     bool has_gloss = true;                      // of samples: as seen from the middle of each image's eyes; else left out
     bool is_relit = false;                      // colours unlit, with normals
     uint32_t judged_views = 0;                  // of the cell, as views_of; of each texture one; 0: none is judged
+    bool is_timed = false;                      // each image's rays are shot again for nothing else, to fill ImageReport::rate
     uint32_t trial_tiles = 0;                   // only the first so many tiles, and no sections are written; 0: all
     uint64_t memory_bytes = uint64_t(4) << 30;  // for rays: beyond it, a tile and its neighbours are kept as instances
     rays::Instructions instructions = rays::Instructions::best;  // other processors' best hit otherwise in the last bits
@@ -61,6 +63,7 @@ struct ImageReport {
     uint64_t taken_from_parts = 0;  // those that were there
     uint64_t above_goal = 0;        // of rows: those with more unseen than was asked for, after the most rays that are shot
     double seconds = 0;
+    Rate rate;                 // of what was made, where it is timed
     uint32_t trial_tiles = 0;  // as was asked
     TrimReport leaves;         // of the models, filled in by whoever read them
     Shards parts;              // to be removed (remove_all(part_count)) when the file is committed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/steady_math.h"
 #include "tools/bake/wang_ldi/shade_rays.h"
 
 namespace overlook::wang_ldi {
@@ -18,8 +19,9 @@ float alpha_of(const Point& point) {
 }
 
 glm::vec3 fresnel(const Point& point, float cosine) {
+    float off = std::clamp(1 - cosine, 0.0f, 1.0f), off2 = off * off;
     glm::vec3 straight = glm::mix(glm::vec3(kDielectric), point.albedo, point.metallic);
-    return straight + (glm::vec3(1) - straight) * std::pow(std::clamp(1 - cosine, 0.0f, 1.0f), 5.0f);
+    return straight + (glm::vec3(1) - straight) * off2 * off2 * off;
 }
 
 // How many of the facets that face a direction are not hidden from it.
@@ -39,8 +41,9 @@ glm::vec3 seen_facet(const glm::vec3& to_eye, float alpha, const glm::vec2& at) 
     float length2 = stretched.x * stretched.x + stretched.y * stretched.y;
     glm::vec3 across = length2 > 0 ? glm::vec3(-stretched.y, stretched.x, 0) / std::sqrt(length2) : glm::vec3(1, 0, 0),
               along = glm::cross(stretched, across);
-    float radius = std::sqrt(at.x), angle = 2 * kPi * at.y, s = 0.5f * (1 + stretched.z);
-    float x = radius * std::cos(angle), y = (1 - s) * std::sqrt(std::max(0.0f, 1 - x * x)) + s * radius * std::sin(angle);
+    steady::SinCos round = steady::sin_cos(2 * M_PI * double(at.y));
+    float radius = std::sqrt(at.x), s = 0.5f * (1 + stretched.z);
+    float x = radius * float(round.cos), y = (1 - s) * std::sqrt(std::max(0.0f, 1 - x * x)) + s * radius * float(round.sin);
     glm::vec3 facet = x * across + y * along + std::sqrt(std::max(0.0f, 1 - x * x - y * y)) * stretched;
     return glm::normalize(glm::vec3(alpha * facet.x, alpha * facet.y, std::max(1e-6f, facet.z)));
 }
@@ -67,11 +70,12 @@ glm::vec3 mirrored_share(const Point& point) {
     return fresnel(point, std::max(glm::dot(point.normal, point.to_eye), kLeastCosine));
 }
 
-glm::vec3 mirrored(const rays::Scene& scene, const Point& point, const Light& light, float sun_share, const glm::vec2& shift) {
+glm::vec3 mirrored(const rays::Scene& scene, const Point& point, const Light& light, float sun_share, const glm::vec2& shift,
+                   ShadowRays& rays) {
     glm::mat3 frame = frame_of(point.normal);
     glm::vec3 to_eye = local_eye(frame, point), from = point.at_m + kLift * point.face;
     float alpha = alpha_of(point);
-    ShadowRays rays;
+    rays.begin();
     std::vector<glm::vec3> shares;
     for (uint32_t i = 0; i < light.sky_rays; ++i) {
         glm::vec3 facet = seen_facet(to_eye, alpha, place_of(i, light.sky_rays, shift));

@@ -18,7 +18,8 @@ inline bool is_glossy(const Point& point) {
 glm::vec3 mirrored_share(const Point& point);
 
 // Towards point.to_eye, linear. sun_share: how much of the sun is seen from there. Rays for sky and ground: light.sky_rays; shift
-// turns their pattern. Lobes are at least as wide as the sun.
-glm::vec3 mirrored(const rays::Scene& scene, const Point& point, const Light& light, float sun_share, const glm::vec2& shift);
+// turns their pattern; they go through `rays`. Lobes are at least as wide as the sun.
+glm::vec3 mirrored(const rays::Scene& scene, const Point& point, const Light& light, float sun_share, const glm::vec2& shift,
+                   ShadowRays& rays);
 
 }  // namespace overlook::wang_ldi

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "formats/numbers.h"
+#include "formats/steady_math.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -100,8 +101,9 @@ double nearest_of_tile_m(const ImageSet& set, double distance_m) {
 // and even about a = 0 and which is greatest where cos a = rim / distance.
 double rim_turn_px(double rim_m, double distance_m, double turn_rad, double focal_px) {
     double half_rad = turn_rad / 2;
-    if (std::cos(half_rad) < rim_m / distance_m) return focal_px * 2 * rim_m / std::sqrt(distance_m * distance_m - rim_m * rim_m);
-    return focal_px * 2 * rim_m * std::sin(half_rad) / (distance_m - rim_m * std::cos(half_rad));
+    if (steady::cos(half_rad) < rim_m / distance_m)
+        return focal_px * 2 * rim_m / std::sqrt(distance_m * distance_m - rim_m * rim_m);
+    return focal_px * 2 * rim_m * steady::sin(half_rad) / (distance_m - rim_m * steady::cos(half_rad));
 }
 
 Result<ImageSet> leveled(const LevelOptions& options) {

@@ -24,6 +24,14 @@ struct OverlapReport {
 constexpr uint64_t kMostLooks = uint64_t(1) << 32;
 OverlapReport check_overlaps(const TileSet& set, const Planting& planting, uint64_t most_looks = kMostLooks);
 
+// Whether no two tight radii overlap: two that were found are enough for `broken`, but only who has looked at all knows that it
+// holds.
+enum class Verdict { hold, broken, unproven };
+inline Verdict verdict_of(const OverlapReport& report) {
+    if (report.tight_overlaps > 0) return Verdict::broken;
+    return report.is_cut_short ? Verdict::unproven : Verdict::hold;
+}
+
 // The least distance that any two keep, as a share of the greatest that so many could keep in the plane (a hexagonal grid): of
 // one packing radius everywhere, Lagae and Dutre's rho = r / sqrt(1 / (2 sqrt(3) n)) for n objects a unit of area, r half the
 // least distance. Of several radii: all scaled by least_packing_ratio, and the share of the ground they cover taken over a

@@ -29,10 +29,14 @@ struct Light {
 // What a place sends to the viewer (point.to_eye), linear. Rays go from `point` into the stage; `seed` turns the pattern of their
 // directions.
 glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed);
+// The same, of many points: in memory that is taken once.
+struct ShadowRays;
+glm::vec3 lit(const rays::Scene& scene, const Point& point, const Light& light, uint64_t seed, ShadowRays& rays);
 
 // [samples] linear colours, as an eye at eye_m sees them: what is not glossy looks the same from anywhere. seed: of all patterns;
-// each sample's own follows from its pixel and layer.
+// each sample's own follows from its pixel and layer. asked: [stages] to be filled with the rays that were shot, or null.
 std::vector<glm::vec3> lit_samples(const Models& models, std::span<const TraceStage> stages, std::span<const Sample> samples,
-                                   const glm::vec3& eye_m, const Light& light, uint64_t seed);
+                                   const glm::vec3& eye_m, const Light& light, uint64_t seed,
+                                   std::vector<std::vector<rays::Ray>>* asked = nullptr);
 
 }  // namespace overlook::wang_ldi

@@ -24,14 +24,18 @@ inline glm::vec2 place_of(uint32_t i, uint32_t count, const glm::vec2& shift) {
     return {x - std::floor(x), y - std::floor(y)};
 }
 
+// Rays that are asked together: begin, add, shoot, and again.
 struct ShadowRays {
     std::vector<rays::Ray> rays;
     std::vector<uint8_t> blocked;
+    std::vector<rays::Ray>* asked = nullptr;  // where all rays that were shot are kept besides; null: nowhere
 
+    void begin() { rays.clear(); }
     void add(const glm::vec3& from, const glm::vec3& along) { rays.push_back({from, along}); }
     void shoot(const rays::Scene& scene) {
         blocked.resize(rays.size());
         scene.are_blocked(rays, blocked);
+        if (asked) asked->insert(asked->end(), rays.begin(), rays.end());
     }
 };
 

@@ -5,13 +5,15 @@
 #include <set>
 #include <tuple>
 
+#include "formats/steady_math.h"
 #include "runtime/wang_ldi/random.h"
 
 namespace overlook::wang_ldi {
 namespace {
 
 rays::Copy copy_of(const Planted& object, double east_m, double north_m) {
-    float turn_cos = std::cos(object.turn_rad) * object.scale, turn_sin = std::sin(object.turn_rad) * object.scale;
+    steady::SinCos turn = steady::sin_cos(double(object.turn_rad));
+    float turn_cos = float(turn.cos) * object.scale, turn_sin = float(turn.sin) * object.scale;
     glm::vec3 at(float(double(object.x_m) + east_m), float(double(object.y_m) + north_m), 0);
     return {object.model, glm::mat4x3({turn_cos, turn_sin, 0}, {-turn_sin, turn_cos, 0}, {0, 0, object.scale}, at)};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/steady_math.h"
+
 namespace overlook::wang_ldi {
 namespace {
 
@@ -50,7 +52,8 @@ struct Shown {
 
 glm::dvec2 direction(int side) {
     double angle = 2 * M_PI * side / kSides;
-    return {std::cos(angle), std::sin(angle)};
+    steady::SinCos at = steady::sin_cos(angle);
+    return {at.cos, at.sin};
 }
 
 void add_texel(Shown& shown, double column, double row) {
