@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "formats/wang_ldi_grouped.h"
 #include "formats/wang_ldi_layout.h"
 #include "tests/fuzz/fuzz_sections.h"
 
@@ -46,7 +47,7 @@ void read_all(std::span<const std::byte> bytes) {
         auto ldi = images->read(i);
         if (!ldi) return require(ldi.error().exit != Exit::our_bug);
         uint32_t level = which_of(set, i).level;
-        std::vector<std::byte> raw = bytes_of_ldi(set, *ldi);
+        std::vector<std::byte> raw = set.is_grouped ? grouped_bytes_of(set, level, *ldi).bytes : bytes_of_ldi(set, *ldi);
         wang_ldi::Ldi again;
         require(!ldi_of_bytes(raw, set, level, images->entries()[i], again) && again == *ldi);
     }
