@@ -1,6 +1,7 @@
 #include "formats/compression.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <memory>
 #include <new>
@@ -27,6 +28,7 @@ size_t compress_in_pieces(ZSTD_CCtx* context, std::span<const std::byte> raw, st
         size_t left = 0;
         do left = ZSTD_compressStream2(context, &out, &in, how);
         while (left > 0 && !ZSTD_isError(left) && out.pos < out.size);
+        if (left > 0 && !ZSTD_isError(left)) left = size_t(0) - size_t(ZSTD_error_dstSize_tooSmall);
         return left;
     };
     for (size_t end : ends)

@@ -18,13 +18,15 @@ inline uint16_t unfolded(uint16_t code) {
     return uint16_t((code >> 1) ^ uint16_t(-(code & 1)));
 }
 
+constexpr int kMostTold = 32767;  // from more steps nothing is told: folded differences would not fit 16 bits
+
 // What differs from `steps` and is not below 0: as folded() as far as it goes to both sides, itself beyond.
 inline uint16_t code_of_gap(int gap, int steps) {
-    if (steps < 0 || gap > 2 * steps) return uint16_t(gap);
+    if (steps < 0 || steps > kMostTold || gap > 2 * steps) return uint16_t(gap);
     return uint16_t(gap >= steps ? 2 * (gap - steps) : 2 * (steps - gap) - 1);
 }
 inline int gap_of_code(uint16_t code, int steps) {
-    if (steps < 0 || code > 2 * steps) return code;
+    if (steps < 0 || steps > kMostTold || code > 2 * steps) return code;
     return code % 2 == 0 ? steps + code / 2 : steps - (code + 1) / 2;
 }
 
@@ -108,9 +110,6 @@ inline uint32_t group_of_colour(const GroupCounts& groups, const Ldi& ldi, int n
     uint32_t band = std::min(groups.colour_bands - 1, height * groups.colour_bands / (most + 1));
     uint32_t of = nearest < 0 ? 0 : uint32_t(nearest) * groups.colour_classes / uint32_t(ldi.palette.size());
     return band * groups.colour_classes + std::min(groups.colour_classes - 1, of);
-}
-inline uint32_t highest_step(const ImageSet& set, uint32_t level) {
-    return uint32_t(std::min(65535.0, std::ceil((set.high_m - set.low_m) / double(set.levels[level].height_step_m))));
 }
 
 }  // namespace overlook::wang_ldi::groups

@@ -50,12 +50,20 @@ std::vector<std::byte> bytes_of_ldi(const ImageSet& set, const Ldi& ldi);  // no
 // `bytes` are exactly raw_bytes_of the entry's counts and may be hostile otherwise.
 ImageFault ldi_of_bytes(std::span<const std::byte> bytes, const ImageSet& set, uint32_t level, const Entry& entry, Ldi& ldi);
 
+// Rows of 16-bit numbers: all low bytes, then all high bytes.
+void put_planes(std::vector<std::byte>& bytes, std::span<const uint16_t> values);
+inline uint16_t plane_value(std::span<const std::byte> planes, size_t count, size_t i) {
+    return uint16_t(uint16_t(planes[i]) | uint16_t(planes[count + i]) << 8);
+}
 // Rows of either form that are neither predicted nor grouped. take_...: ldi has its samples, `bytes` these rows and no more.
 void put_normals_and_splats(const Ldi& ldi, std::vector<std::byte>& bytes);
 void take_normals_and_splats(std::span<const std::byte> bytes, const ImageSet& set, Ldi& ldi);
 
 // The head and the levels; bytes_of_head does not ask whether they keep the rules.
 std::vector<std::byte> bytes_of_head(const ImageSet& set);
+
+// Of the set's heights, the highest: 0..65535.
+uint32_t highest_step(const ImageSet& set, uint32_t level);
 
 // The rules that hold of any set and image, whether read or to be written. Each looks at what the ones before it left right.
 ImageFault fault_of_counts(const ImageSet& set);                               // L3; the levels' count is that of set.levels

@@ -1,25 +1,8 @@
 // An image as bytes before compression, and back: its palette, then rows of like numbers, wide ones byte by byte.
-#include "formats/wang_ldi_grouped.h"
+#include "formats/wang_ldi_groups.h"
 
 namespace overlook::wang_ldi {
 namespace {
-
-// Rows of 16-bit numbers: all low bytes, then all high bytes.
-void put_planes(std::vector<std::byte>& bytes, const std::vector<uint16_t>& values) {
-    for (int shift : {0, 8})
-        for (uint16_t value : values) bytes.push_back(std::byte((value >> shift) & 0xff));
-}
-uint16_t plane_value(std::span<const std::byte> planes, size_t count, size_t i) {
-    return uint16_t(uint16_t(planes[i]) | uint16_t(planes[count + i]) << 8);
-}
-
-uint16_t folded(int difference) {
-    auto wrapped = int16_t(uint16_t(difference));
-    return uint16_t(uint16_t(wrapped << 1) ^ uint16_t(wrapped >> 15));
-}
-uint16_t unfolded(uint16_t code) {
-    return uint16_t((code >> 1) ^ uint16_t(-(code & 1)));
-}
 
 // A pixel's lowest sample is told from the lowest of the pixel with samples before it, any other from the one below it.
 std::vector<uint16_t> residuals_of(const Ldi& ldi) {
@@ -29,7 +12,7 @@ std::vector<uint16_t> residuals_of(const Ldi& ldi) {
         for (uint32_t s = ldi.first[p]; s < ldi.first[p + 1]; ++s) {
             bool is_lowest = s == ldi.first[p];
             int height = ldi.heights[s];
-            residuals[s] = is_lowest ? folded(height - lowest) : uint16_t(height - ldi.heights[s - 1] - 1);
+            residuals[s] = is_lowest ? groups::folded(height - lowest) : uint16_t(height - ldi.heights[s - 1] - 1);
             if (is_lowest) lowest = height;
         }
     }
@@ -44,7 +27,7 @@ bool heights_of_residuals(std::span<const std::byte> planes, Ldi& ldi) {
         for (uint32_t s = ldi.first[p]; s < ldi.first[p + 1]; ++s) {
             uint16_t code = plane_value(planes, count, s);
             if (s == ldi.first[p]) {
-                ldi.heights[s] = lowest = uint16_t(lowest + unfolded(code));
+                ldi.heights[s] = lowest = uint16_t(lowest + groups::unfolded(code));
                 continue;
             }
             uint32_t height = uint32_t(ldi.heights[s - 1]) + code + 1;
@@ -56,6 +39,11 @@ bool heights_of_residuals(std::span<const std::byte> planes, Ldi& ldi) {
 }
 
 }  // namespace
+
+void put_planes(std::vector<std::byte>& bytes, std::span<const uint16_t> values) {
+    for (int shift : {0, 8})
+        for (uint16_t value : values) bytes.push_back(std::byte((value >> shift) & 0xff));
+}
 
 uint64_t raw_bytes_of(const ImageSet& set, uint32_t side_px, uint64_t samples, uint64_t colours) {
     uint64_t of_sample = 3u + (set.has_normals ? 2u : 0u) + (set.has_splats ? 1u : 0u);

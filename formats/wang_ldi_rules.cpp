@@ -86,12 +86,16 @@ ImageFault fault_of_levels(const ImageSet& set) {
     return {};
 }
 
+uint32_t highest_step(const ImageSet& set, uint32_t level) {
+    return uint32_t(std::min(65535.0, std::ceil((set.high_m - set.low_m) / double(set.levels[level].height_step_m))));
+}
+
 ImageFault fault_of_ldi(const ImageSet& set, uint32_t level, const Ldi& ldi) {
-    double steps = std::ceil((set.high_m - set.low_m) / double(set.levels[level].height_step_m));
+    uint32_t steps = highest_step(set, level);
     for (size_t p = 0; p + 1 < ldi.first.size(); ++p) {
         for (uint32_t s = ldi.first[p]; s < ldi.first[p + 1]; ++s) {
             bool ascends = s == ldi.first[p] || ldi.heights[s] > ldi.heights[s - 1];
-            if (!ascends || double(ldi.heights[s]) > steps)
+            if (!ascends || ldi.heights[s] > steps)
                 return {12, fmt::format("sample {} in pixel {} is at step {}", s, p, ldi.heights[s])};
         }
     }

@@ -16,15 +16,6 @@ tl::unexpected<Error> broken(const container::Reader& file, const ImageFault& fa
     return bad_input("{}: V{}: {}", file.name(), fault.rule, fault.text);
 }
 
-// All low bytes, then all high bytes.
-void put_planes(std::vector<std::byte>& bytes, std::span<const uint16_t> values) {
-    for (int shift : {0, 8})
-        for (uint16_t value : values) bytes.push_back(std::byte((value >> shift) & 0xff));
-}
-uint16_t plane_value(std::span<const std::byte> planes, size_t count, size_t i) {
-    return uint16_t(uint16_t(planes[i]) | uint16_t(planes[count + i]) << 8);
-}
-
 uint64_t rows_bytes(uint64_t pixels, uint64_t samples, bool has_normals) {
     return 2 * pixels + samples * (has_normals ? 7u : 5u);
 }
@@ -196,7 +187,7 @@ Result<void> write_scene(container::Writer& writer, const Scene& scene, uint32_t
 }
 
 bool has_scene(const container::Reader& file) {
-    return file.find(kSceneTag) != nullptr;
+    return file.find(kSceneTag) != nullptr || file.find(kScenePicturesTag) != nullptr;
 }
 
 Result<Scene> read_scene(const container::Reader& file, uint32_t tile_count) {

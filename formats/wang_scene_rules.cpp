@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/steady_math.h"
 #include "formats/wang_scene_layout.h"
 
 namespace overlook::wang_ldi {
@@ -33,10 +34,10 @@ int scene_rule_count() {
 }
 
 double depth_of_code(const PerspectiveView& view, uint16_t code) {
-    return view.near_m * std::exp(std::log(view.far_m / view.near_m) * (double(code) / 65535));
+    return view.near_m * steady::exp2(steady::log2(view.far_m / view.near_m) * (double(code) / 65535));
 }
 uint16_t code_of_depth(const PerspectiveView& view, double depth_m) {
-    double step = 65535 * std::log(depth_m / view.near_m) / std::log(view.far_m / view.near_m);
+    double step = 65535 * steady::log2(depth_m / view.near_m) / steady::log2(view.far_m / view.near_m);
     return uint16_t(std::clamp(std::round(step), 0.0, 65535.0));
 }
 

@@ -21,7 +21,7 @@ class BudgetKeeper {
     // How many times as coarse as asked levels are to be in the next frame, 1 to 4096. demands: of all directors of the picture.
     // Rests while that keeps between 95 and 100 % of the budget, or under it at what was asked; else comes to the least that
     // takes 97.5 % of it at most, where even the fewest triangles are more, those. What is taken beside, while levels change, is
-    // not in it. 22 x Demand::triangles at most.
+    // not in it. 23 x Demand::triangles at most.
     double times(std::span<const Demand> demands);
 
   private:

@@ -206,7 +206,7 @@ Result<gl::Program> Drawing::program(const std::string& name, const std::string&
 }
 
 Result<void> Drawing::make_programs() {
-    Result<gl::Program> shaded = program("levels", "", shaders::kOnePictureMain);
+    Result<gl::Program> shaded = program("levels", "", std::string(shaders::kDoor) + shaders::kOnePictureMain);
     if (!shaded) return tl::unexpected(shaded.error());
     std::string behind = std::string(gl::shaders::kBackgroundDirection) + kBackground;
     auto background =

@@ -57,8 +57,8 @@ class FrameDrawer {
     void decide(const view::Camera& camera, double dt_s, double clip_s);
     // Draws and resolves; need not wait until it is drawn. Fails as Turns::draw.
     Result<FrameCounts> draw(const gl::Target& target, const DrawOptions& look);
-    // Pixels for which the last draw() into a target of so many samples a pixel put two frames together: combined_px or fewer.
-    // Waits until it has.
+    // Pixels for which the last draw() into a target of so many samples a pixel put two frames together: combined_px or fewer, as
+    // whole blocks of 8 x 8 are counted, also at the picture's sides. Waits until it has.
     uint64_t searched_px(uint32_t samples) const { return turns_ ? turns_->searched_px(samples) : 0; }
     // Draws into the target, whose picture is lost, what changes of level are drawn by, so that no frame waits for shaders when
     // the first one begins. Fails as Turns::draw.

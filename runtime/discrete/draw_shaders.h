@@ -187,14 +187,18 @@ float visibility_of(Item item, vec3 rest_m) {
 }
 )";
 
-// One picture: what is whole, behind a screen door or translucent. The door is Bayer's 8 x 8 (Bayer 1973).
-inline constexpr char kOnePictureMain[] = R"(
+// A screen door, Bayer's 8 x 8 (Bayer 1973): from which share on it is open at a pixel.
+inline constexpr char kDoor[] = R"(
 float door() {
     uvec2 p = uvec2(gl_FragCoord.xy);
     uint x = p.x ^ p.y, y = p.y, order = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) order = order << 2 | (x >> bit & 1u) << 1 | (y >> bit & 1u);
     return (float(order) + 0.5) / 64.0;
 }
+)";
+
+// One picture: what is whole, behind a screen door or translucent. After kDoor.
+inline constexpr char kOnePictureMain[] = R"(
 void main() {
     Item item = own_item();
     vec3 own = own_colour(item.is_plain);

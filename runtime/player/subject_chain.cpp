@@ -105,7 +105,8 @@ class ChainSubject : public Subject {
         record.asked_error_px = style.error_px * counts->coarser_times;
         record.predicted_error_px = counts->error_px;
         record.chain = *counts;
-        time_.frame_done(record.refine_ms + record.draw_ms, double(counts->settled_triangle_count), counts->coarser_times > 1);
+        time_.frame_done(record.refine_ms + record.draw_ms, double(counts->triangle_count), double(counts->settled_triangle_count),
+                         counts->coarser_times > 1);
         return record;
     }
 

@@ -54,19 +54,23 @@ void ErrorController::frame_done(double cost) {
 void WorkAllowance::set_most_ms(double most_ms) {
     if (most_ms == most_ms_) return;
     most_ms_ = most_ms;
-    latest_.forget();
+    latest_.forget(), settled_.forget();
     if (most_ms_ <= 0) work_ = 0;
 }
 
-void WorkAllowance::frame_done(double ms, double work, bool is_held_back) {
+// What a frame will take when changes are over lies between its time and that by how much work will be left of it: something of a
+// time may be of no work.
+void WorkAllowance::frame_done(double ms, double drawn, double settled, bool is_held_back) {
     if (most_ms_ <= 0) return;
+    double settled_ms = settled_.next(drawn > 0 ? ms * settled / drawn : ms);
     ms = latest_.next(ms);
     if (!latest_.is_full()) return;
-    bool is_over = ms > most_ms_;
-    if (!is_over && (ms >= kLeastTimeShare * most_ms_ || !is_held_back)) return;
-    double aim = kTimeAim * most_ms_ / std::max(ms, 1e-6);
-    work_ = is_over ? std::max(work * aim, 1.0) : std::max(work_, work) * std::min(aim, kMostGrowth);
-    latest_.forget();
+    double least_ms = std::min(ms, settled_ms), most_ms = std::max(ms, settled_ms);
+    bool is_over = least_ms > most_ms_;
+    if (!is_over && (most_ms >= kLeastTimeShare * most_ms_ || !is_held_back)) return;
+    double aim = kTimeAim * most_ms_ / std::max(is_over ? least_ms : most_ms, 1e-6);
+    work_ = is_over ? std::max(settled * aim, 1.0) : std::max(work_, settled) * std::min(aim, kMostGrowth);
+    latest_.forget(), settled_.forget();
 }
 
 }  // namespace overlook::view

@@ -60,12 +60,13 @@ class WorkAllowance {
     void set_most_ms(double most_ms);
     // Of the next frame; 0: as much as it takes.
     double work() const { return work_; }
-    // What the last frame took, and the work in it. is_held_back: it would have had more without the allowance.
-    void frame_done(double ms, double work, bool is_held_back);
+    // What the last frame took, the work drawn in it and what is left of that when changes under way are over. is_held_back: it
+    // would have had more without the allowance.
+    void frame_done(double ms, double drawn, double settled, bool is_held_back);
 
   private:
     double most_ms_ = 0, work_ = 0;
-    MiddleOfThree latest_;
+    MiddleOfThree latest_, settled_;  // milliseconds
 };
 
 }  // namespace overlook::view

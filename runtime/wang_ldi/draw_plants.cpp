@@ -12,15 +12,12 @@
 namespace overlook::wang_ldi {
 namespace {
 
-// Of plants that give way to images, on the pixels that a screen door opens first; else on all. The door as discrete's.
+// Of plants that give way to images, on the pixels that a screen door opens first; else on all. After discrete's kDoor.
 constexpr char kFading[] = "#define IS_FADING 1\n", kNotFading[] = "#define IS_FADING 0\n";
-constexpr char kDoor[] = R"(
+constexpr char kLeave[] = R"(
 void leave_by_door(Item item) {
 #if IS_FADING
-    uvec2 p = uvec2(gl_FragCoord.xy);
-    uint x = p.x ^ p.y, y = p.y, order = 0u;
-    for (uint bit = 0u; bit < 3u; ++bit) order = order << 2 | (x >> bit & 1u) << 1 | (y >> bit & 1u);
-    if ((float(order) + 0.5) / 64.0 >= item.share) discard;
+    if (door() >= item.share) discard;
 #endif
 }
 )";
@@ -80,7 +77,7 @@ void set_light(const gl::Program& program, const discrete::Chain& chain, const C
 std::string plant_look_text() {
     BakedLight light;
     std::string text = std::string(discrete::shaders::kItemInputs) + discrete::shaders::kVertex + discrete::shaders::kItem +
-                       discrete::shaders::kFragment + kDoor + kUnlitMain + kSunlitMain;
+                       discrete::shaders::kFragment + discrete::shaders::kDoor + kLeave + kUnlitMain + kSunlitMain;
     for (const glm::vec3& one : {light.sun, light.sky, light.ground}) text += fmt::format("{} {} {} ", one.x, one.y, one.z);
     return text + fmt::format("{} {}", light.transmission, kCanopyForm);
 }
@@ -97,7 +94,7 @@ Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Plant
         model->form = form_of(chain);
         model->drawing = std::move(*drawing);
         for (const char* define : {kNotFading, kFading}) {
-            std::string main = std::string(kDoor) + (is_lit ? kSunlitMain : kUnlitMain);
+            std::string main = std::string(discrete::shaders::kDoor) + kLeave + (is_lit ? kSunlitMain : kUnlitMain);
             Result<gl::Program> program = model->drawing.program("plants", define, main);
             if (!program) return tl::unexpected(program.error());
             if (is_lit) set_light(*program, chain, canopy, to_sun);

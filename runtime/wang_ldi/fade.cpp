@@ -35,7 +35,7 @@ Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
     uint32_t first = level_for(set, images_from_m * options.coarser);
     double rim_m = set.tile_m * std::sqrt(0.5), keeps_m = images_to_m * (1 - options.fade_share) - rim_m;
     for (uint32_t level = first; level < set.levels.size(); ++level) {
-        if (level > first && !(sample_error_m(set, level) * options.samples_from < keeps_m)) break;
+        if (level > first && !(sample_error_m(set, level, 0) * options.samples_from < keeps_m)) break;
         wanted.push_back(
             {Stage::ldi, level, level == first ? images_from_m : double(set.levels[level].nearest_m) / options.coarser, 0, 0});
     }
@@ -56,6 +56,12 @@ Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
         if (r + 1 < rungs.size()) half = std::min(half, (rungs[r + 1].from_m - from_m) / 2);
         rungs[r].fade_from_m = from_m - half, rungs[r].fade_to_m = from_m + half;
     }
+    auto coarsest = uint32_t(set.levels.size() - 1), finest = coarsest;
+    for (const Rung& rung : rungs)
+        if (rung.stage == Stage::ldi) finest = std::min(finest, rung.level);
+    bool has_coarsest = std::any_of(rungs.begin(), rungs.end(),
+                                    [&](const Rung& rung) { return rung.stage == Stage::ldi && rung.level == coarsest; });
+    if (finest < coarsest && !has_coarsest) rungs.push_back({Stage::ldi, coarsest, INFINITY, INFINITY, INFINITY});
     return ladder;
 }
 

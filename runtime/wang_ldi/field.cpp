@@ -98,12 +98,12 @@ Chosen Field::chosen(const glm::dvec2& eye_from_middle_m, double eye_above_groun
             directions_at(*parts_.images, eye_from_middle_m, options_.direction_fade_share)};
 }
 
-double Field::farthest_within_m(double error_m) const {
+double Field::farthest_within_m(double error_m, double slope) const {
     double at_m = 0, within_m = 0;
     for (const Rung& rung : ladder_.rungs) {
         if (rung.stage == Stage::geometry) continue;
         if (rung.stage != Stage::ldi) break;
-        double own_m = sample_error_m(*parts_.images, rung.level);
+        double own_m = sample_error_m(*parts_.images, rung.level, slope);
         if (error_m < own_m) return at_m + (rung.fade_from_m - at_m) * std::max(0.0, error_m - within_m) / (own_m - within_m);
         at_m = rung.fade_from_m, within_m = own_m;
     }

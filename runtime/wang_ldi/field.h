@@ -55,8 +55,8 @@ FieldOptions paper_options(const ImageSet& set);
 FieldOptions options_to_horizon(const ImageSet& set, double focal_px, double geometry_to_m = 0, uint32_t texture_side_px = 32);
 
 // One of the means of an item. At a pixel of an image it is shown if by_rung contains its rung_threshold and by_direction its
-// direction_threshold. The shown of an item are whole together, less what is
-// bare; of geometry beside images one of the two is whole by itself.
+// direction_threshold. The shown of an item are whole together, less what is bare; of geometry beside images one of the two is
+// whole by itself.
 struct Shown {
     uint32_t rung = 0;       // of Field::ladder
     uint32_t direction = 0;  // of images, textures and colours
@@ -87,7 +87,7 @@ struct Item {
     uint32_t coarser_px = 0;                  // side of the coarsest image or texture of a tile, for rung_threshold; of a block 0
     uint32_t texels_px = 0;                   // side of the whole item in its finest texels, if textures or colours are shown
     uint32_t last_rung = 0;                   // of a block, the coarsest that any place of it may be shown by
-    double distance_m = 0;                    // what rungs and shares were chosen by: of a tile's or block's middle, or less
+    double distance_m = 0;                    // of a tile's or block's middle
     double low_m = 0, high_m = 0;             // everything of it lies between
     double displacement_m = 0;                // as Sheared, of the worst piece
 };
@@ -149,9 +149,9 @@ class Field {
     }
     // The number of a tile's own that decides its fades.
     static uint64_t fade_number(int64_t i, int64_t j) { return hash_of(0, 0x6661, i, j); }
-    // The farthest that a place may be taken for so that all images shown have samples within error_m of their surfaces; infinite
-    // if all have. Without such: 0.
-    double farthest_within_m(double error_m) const;
+    // The farthest that a place may be taken for so that all images shown have samples within error_m of their surfaces on a tile
+    // of so steep a slope, as sample_error_m; infinite if all have. Without such: 0.
+    double farthest_within_m(double error_m, double slope = 0) const;
     // By how far rungs are chosen: on the ground, and up as far as the eye is above where images are sampled from.
     double distance_m(const glm::dvec2& ground_m, double eye_above_ground_m) const;
 

@@ -4,6 +4,7 @@
 #include "runtime/view/box_error.h"
 #include "runtime/view/pixel_error.h"
 #include "runtime/wang_ldi/field.h"
+#include "runtime/wang_ldi/tile_error.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -143,8 +144,8 @@ class FieldWalk {
         bool is_upright = field_.ladder_.rungs[chosen.rungs.first].stage <= Stage::ldi;  // not textures alone
         if (is_upright) shear(item, rect);
         if (item.distance_m < field_.images_to_m_) {
-            item.distance_m = std::min(item.distance_m, field_.farthest_within_m(permitted_m(item, rect)));
-            chosen.rungs = rungs_at(field_.ladder_, item.distance_m);
+            double within_m = field_.farthest_within_m(permitted_m(item, rect), steepest(list_.halves_of(item)));
+            chosen.rungs = rungs_at(field_.ladder_, std::min(item.distance_m, within_m));
         }
         item.first_shown = uint32_t(list_.shown.size());
         const Mix &rungs = chosen.rungs, &directions = chosen.directions;
@@ -165,13 +166,14 @@ class FieldWalk {
         return {{0, geometry}, {kWhole - image, kWhole}};
     }
 
-    // How far samples may stand from their surfaces, in metres. Of what its ground may stand off an even part is kept back, so
-    // that nothing changes at once where a tile is cut in more pieces.
+    // How far samples may stand from their surfaces, in metres. Where tiles are cut, an even part is kept back of what their ground
+    // may stand off, so that nothing changes at once where one is cut in more pieces.
     double permitted_m(const Item& item, const Rect& rect) const {
         const FieldOptions& options = field_.options_;
         if (std::isinf(options.error_px)) return INFINITY;
         double all_m = bound_.metres(bound_.of({rect.low_m, item.low_m}, {rect.high_m, item.high_m}), options.error_px);
-        double kept_m = item.displacement_m > 0 ? all_m * std::min(1.0, options.displacement_px / options.error_px) : 0;
+        bool is_cut = item.displacement_m > 0 && std::isfinite(options.displacement_px);
+        double kept_m = is_cut ? all_m * std::min(1.0, options.displacement_px / options.error_px) : 0;
         return all_m - std::max(item.displacement_m, kept_m);
     }
 

@@ -27,9 +27,16 @@ double far_error_px(const Field& field, const view::Camera& camera) {
 
 }  // namespace
 
-double sample_error_m(const ImageSet& images, uint32_t level) {
+double sample_error_m(const ImageSet& images, uint32_t level, double slope) {
     const Level& of = images.levels[level];
-    return std::hypot(std::sqrt(0.5) * images.tile_m / of.side_px, double(of.height_step_m) / 2);
+    double aside_m = std::sqrt(0.5) * images.tile_m / of.side_px;
+    return std::hypot(aside_m, slope * aside_m + double(of.height_step_m) / 2);
+}
+
+double steepest(std::span<const Half> halves) {
+    double slope = 0;
+    for (const Half& half : halves) slope = std::max(slope, glm::length(half.plane.slope));
+    return slope;
 }
 
 double planting_error_px(const Field& field, const FieldList& list, const view::Camera& camera) {
@@ -39,10 +46,11 @@ double planting_error_px(const Field& field, const FieldList& list, const view::
     double error_px = 0;
     for (const Item& item : list.items) {
         has_blocks |= item.tiles_log2 > 0, has_far |= item.texels_px > 0;
-        double error_m = 0;
+        double error_m = 0, slope = steepest(list.halves_of(item));
         for (const Shown& shown : list.shown_of(item)) {
             const Rung& rung = field.ladder().rungs[shown.rung];
-            if (rung.stage == Stage::ldi) error_m = std::max(error_m, sample_error_m(images, rung.level) + item.displacement_m);
+            if (rung.stage == Stage::ldi)
+                error_m = std::max(error_m, sample_error_m(images, rung.level, slope) + item.displacement_m);
         }
         if (error_m == 0) continue;
         Rect rect = field.parts().placement->rect_of(item.i, item.j);

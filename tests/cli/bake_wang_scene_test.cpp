@@ -59,7 +59,7 @@ TEST_F(BakeWangScene, IsOneImageAndPicturesTheSameBytesWhateverThreads) {
     Ran proof = run({"baked", "verify", folder_ / "a.ovl", "--json"});
     expect_done(proof);
     EXPECT_EQ(nlohmann::json::parse(proof.out)["scene_pictures"], 14);
-    Ran all = bake("c.ovl", with({"--json", "--scene-layers", "all", "--light", "later", "--scene-camera", "1,2,1.5,90,-10,50",
+    Ran all = bake("c.ovl", with({"--json", "--scene-layers", "all", "--light", "later", "--scene-camera", "1,2,1.5,450,-10,50",
                                   "--scene-near-m", "0.5", "--scene-far-m", "6", "--scene-views", "0"}));
     expect_done(all);
     nlohmann::json of_all = nlohmann::json::parse(all.out)["scene"];
@@ -79,6 +79,7 @@ TEST_F(BakeWangScene, RefusesWhatMakesNoSenseInALine) {
           Bad{{"--scene-size", "0x48"}, "--scene-size 0x48"}, Bad{{"--scene-size", "64x4097"}, "--scene-size 64x4097"},
           Bad{{"--scene-camera", "1,2"}, "--scene-camera 1,2: x,y,z,heading,pitch[,fov_y] are wanted"},
           Bad{{"--scene-camera", "99,0,1,0,0"}, "the eye stands outside of the ground, which is 120 m wide"},
+          Bad{{"--scene-camera", "0,0,1e7,0,0"}, "--scene-camera 0,0,1e7,0,0: an eye at (0, 0, 10000000) m"},
           Bad{{"--scene-far-m", "0.05"}, "--scene-far-m 0.05: is not beyond --scene-near-m 0.1"},
           Bad{{"--scene-near-m", "0"}, "--scene-near-m"}, Bad{{"--scene-eyes", "0"}, "--scene-eyes"},
           Bad{{"--scene-tiles", "1"}, "--scene-tiles"}, Bad{{"--scene-cell-m", "-1"}, "--scene-cell-m"},
@@ -88,6 +89,8 @@ TEST_F(BakeWangScene, RefusesWhatMakesNoSenseInALine) {
         words.insert(words.end(), bad.words.begin(), bad.words.end());
         expect_refusal(bake("a.ovl", words), 2, "bake-wang-ldi", {bad.part});
     }
+    expect_refusal(bake("a.ovl", {"--only", "scene", "--scene-size", "4096x4096", "--scene-views", "64"}), 5, "bake-wang-ldi",
+                   {"--scene-size 4096x4096: 385 pictures take", "more than 2^28"});
     expect_refusal(bake("a.ovl", {"--scene-eyes", "3"}), 2, "bake-wang-ldi", {"--scene-eyes: goes with --only scene"});
     expect_refusal(bake("a.ovl", {"--only", "scenes"}), 2, "bake-wang-ldi", {"--only"});
     EXPECT_EQ(contents_of(folder_.path()), before);

@@ -12,12 +12,14 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
 constexpr size_t kImage = scene_at::bytes + 2, kRows = kImage + picture_at::bytes;  // in WSCN: two tiles stand before the image
 
-Bytes file_of(const Bytes& scene, const Bytes& pictures, uint32_t codec = 1, bool has_pictures = true) {
+Bytes file_of(const Bytes& scene, const Bytes& pictures, uint32_t codec = 1, bool has_pictures = true,
+              bool has_image = true) {
     auto section = [&](std::string_view tag, const Bytes& bytes) {
         return container::fixtures::RawSection{tag, 0, codec, codec == 0 ? bytes : terrain::fixtures::frame_of(bytes),
                                                bytes.size()};
     };
-    std::vector<container::fixtures::RawSection> sections{section("WSCN", scene)};
+    std::vector<container::fixtures::RawSection> sections;
+    if (has_image) sections.push_back(section("WSCN", scene));
     if (has_pictures) sections.push_back(section("WSCP", pictures));
     Bytes made = container::fixtures::file_of(sections);
     container::fixtures::seal(made);
@@ -46,6 +48,7 @@ Bytes with_pictures_u32(size_t at, uint32_t value) {
 
 std::vector<Fixture> broken_sizes() {
     return {{"v01_no_pictures.ovl", 1, file_of(bytes_of_scene(two_tiles()), {}, 1, false)},
+            {"v01_no_image.ovl", 1, file_of({}, bytes_of_scene_pictures(two_tiles()), 1, true, false)},
             {"v01_not_compressed.ovl", 1, file_of(bytes_of_scene(two_tiles()), bytes_of_scene_pictures(two_tiles()), 0)},
             {"v02_empty.ovl", 2, with([](Bytes& scene, Bytes&) { scene.clear(); })},
             {"v02_no_head.ovl", 2, with([](Bytes& scene, Bytes&) { scene.resize(kImage + 40); })},

@@ -103,6 +103,25 @@ TEST(LayeredImages, ComeBackGroupedWhateverTheirSize) {
     EXPECT_GT(counts[1], counts[2]);
 }
 
+// Heights of 65,535 steps beside each other, of which differences fit no 16 bits.
+TEST(LayeredImages, ComeBackGroupedWhateverTheirHeights) {
+    ImageSet set = field();
+    set.is_grouped = true, set.has_normals = set.has_splats = false;
+    set.levels = {{8, 1, float((set.high_m - set.low_m) / 65534), 1}};
+    for (uint32_t gap : {1u, 2u, 1000u, 32765u, 32766u, 32767u, 32768u, 32769u, 40000u, 65530u}) {
+        Ldi ldi;
+        ldi.side_px = 8, ldi.first = {0}, ldi.palette = {{1, 2, 3}}, ldi.unseen_share = 0.25f;
+        for (uint32_t p = 0; p < 64; ++p) {
+            uint32_t own = p % 3 == 0 ? gap : p % 3 == 1 ? 1 + p % 5 : 65534u - gap;
+            for (uint32_t height : {0u, std::max(own, 1u)}) ldi.heights.push_back(uint16_t(height)), ldi.colours.push_back(0);
+            ldi.first.push_back(ldi.sample_count());
+        }
+        auto bytes = packed(set, 0, ldi);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        EXPECT_TRUE(read_back(set, 0, *bytes) == ldi) << gap;
+    }
+}
+
 // Columns that go on from pixel to pixel, as surfaces do, take fewer bytes than unpredicted.
 TEST(LayeredImages, OfSurfacesTakeFewerBytesGrouped) {
     ImageSet set = field();

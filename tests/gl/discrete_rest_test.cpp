@@ -50,18 +50,25 @@ TEST(Turns, SearchOnlyWhereSomethingUnderWayIsSeenToTheLastBit) {
     struct Case {
         double step_m, moved_m;
         uint32_t samples;
+        uint32_t width_px = 96, height_px = 80;  // or no multiples of a block's
     };
     for (const Case& one :
-         {Case{0.02, 0, 1}, Case{0.3, 0, 1}, Case{0.02, 0.2, 1}, Case{0.3, 0.2, 1}, Case{0.3, 0.2, 4}, Case{0, 0, 4}}) {
+         {Case{0.02, 0, 1}, Case{0.3, 0, 1}, Case{0.02, 0.2, 1}, Case{0.3, 0.2, 1}, Case{0.3, 0.2, 4}, Case{0, 0, 4},
+          Case{0.3, 0.2, 1, 93, 77}, Case{0.02, 0.2, 4, 93, 77}}) {
         FrameOptions options = by_distance(Variant::fsi), everywhere = options;
         set(everywhere, "sieve", 0);
         std::vector<Placement> placements = {placed({-2.2, 0, 0}, 0.5), placed({1.2, -1, 0}), placed({1.9, 0.2, 0.4}),
                                              placed({-1, 0.3, 1.5}, 0.3)};
-        Film film(chain, placements, options, one.samples), whole(chain, placements, everywhere, one.samples);
+        auto from = [&](const glm::dvec3& position_m) {
+            view::Camera camera = camera_from(position_m);
+            camera.width_px = one.width_px, camera.height_px = one.height_px;
+            return camera;
+        };
+        Film film(chain, placements, options, one.samples, from({})), whole(chain, placements, everywhere, one.samples, from({}));
         uint64_t searched_px = 0, combined_px = 0, moving = 0;
         for (int frame = 0; frame < 40; ++frame) {
             view::Camera camera =
-                camera_from({one.step_m * (frame - 20), -12.5 + std::max(0.15, one.step_m) * (frame % 20), 0.1});
+                from({one.step_m * (frame - 20), -12.5 + std::max(0.15, one.step_m) * (frame % 20), 0.1});
             placements[1] = placed({1.2 - one.moved_m * frame, -1, 0});
             for (Film* each : {&film, &whole}) each->frames().place(placements);
             ImageRgb8 a = film.frame(camera), b = whole.frame(camera);

@@ -43,9 +43,10 @@ inline FrameOptions by_distance(Variant variant) {
 // A context must be current.
 class Film {
   public:
-    Film(const Chain& chain, std::vector<Placement> placements, const FrameOptions& options, uint32_t samples = 1)
+    Film(const Chain& chain, std::vector<Placement> placements, const FrameOptions& options, uint32_t samples = 1,
+         const view::Camera& size_of = camera_from({}))
         : drawing_(*Drawing::make(chain)),
-          target_(*gl::Target::make(camera_from({}).width_px, camera_from({}).height_px, samples)),
+          target_(*gl::Target::make(size_of.width_px, size_of.height_px, samples)),
           frames_(*FrameDrawer::make(drawing_, placements, options)) {}
 
     ImageRgb8 frame(const view::Camera& camera, double dt_s = kStep_s) {

@@ -190,7 +190,7 @@ TEST_F(Frames, KeepTheBudgetOfTheirImages) {
     tight.settings.residency_budget_bytes = tight.settings.upload_budget_bytes = roomy->counts().stream.resident_bytes * 2 / 3;
     auto drawer = frames({}, tight);
     for (int frame = 0; frame < 6; ++frame) {
-        picture(*drawer, 3 * frame, 90 * frame);  // so that other directions are wanted
+        picture(*drawer, 3 * frame);
         const FrameCounts& counts = drawer->counts();
         EXPECT_LE(counts.stream.resident_bytes + counts.stream.on_the_way_bytes, tight.settings.residency_budget_bytes);
         EXPECT_GT(counts.images.stand_ins, 0u);

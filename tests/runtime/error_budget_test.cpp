@@ -126,7 +126,7 @@ double run(WorkAllowance& allowance, const Worker& worker, int frames, Jitter&& 
     for (int frame = 0; frame < frames; ++frame) {
         double work = worker.done(allowance);
         ms = worker.ms(work);
-        allowance.frame_done(ms * jitter(frame), work, work < worker.demanded);
+        allowance.frame_done(ms * jitter(frame), work, work, work < worker.demanded);
     }
     return ms;
 }
@@ -175,9 +175,9 @@ TEST(WorkAllowance, FollowsStepsOfTheTimeAndOfTheLoadWithoutSwinging) {
 TEST(WorkAllowance, IsNotMovedByOneSlowFrame) {
     WorkAllowance allowance;
     allowance.set_most_ms(10);
-    for (double ms : {9.0, 9.1, 40.0, 9.0, 8.9, 40.0, 9.0}) allowance.frame_done(ms, 1000, false);
+    for (double ms : {9.0, 9.1, 40.0, 9.0, 8.9, 40.0, 9.0}) allowance.frame_done(ms, 1000, 1000, false);
     EXPECT_EQ(allowance.work(), 0);
-    for (double ms : {20.0, 21.0}) allowance.frame_done(ms, 1000, false);
+    for (double ms : {20.0, 21.0}) allowance.frame_done(ms, 1000, 1000, false);
     EXPECT_GT(allowance.work(), 0);
     EXPECT_LT(allowance.work(), 500);
 }
@@ -195,12 +195,49 @@ TEST(WorkAllowance, OfATimeThatCannotBeKeptDoesNotWindUpAndComesBack) {
     EXPECT_LE(run(allowance, worker, 10, evenly), 10);
 }
 
+// Changes of level take a quarter of a second, in which what was and what will be are drawn together, or one after the other: a
+// time is not charged again for what is over soon.
+TEST(WorkAllowance, WaitsForChangesThatAreUnderWay) {
+    constexpr int kChange_frames = 15;
+    for (bool is_both : {false, true})
+        for (double fixed_ms : {0.0, 2.0, 9.0}) {
+            Worker worker;
+            worker.fixed_ms = fixed_ms;
+            WorkAllowance allowance;
+            allowance.set_most_ms(16);
+            double from = worker.demanded, to = worker.demanded, ms = 0;
+            int left = 0, over = 0, changes_of_sign = 0;
+            double last_step = 0, least = worker.demanded;
+            for (int frame = 0; frame < 400; ++frame) {
+                double wanted = worker.done(allowance);
+                if (wanted != to) from = left > 0 ? from + (to - from) * (kChange_frames - left) / kChange_frames : to, to = wanted, left = kChange_frames;
+                double through = 1 - double(left) / kChange_frames;
+                double drawn = left == 0 ? to : is_both ? from + to : from + (to - from) * through;
+                ms = worker.ms(drawn);
+                over += ms > 16;
+                double before = allowance.work();
+                allowance.frame_done(ms, drawn, to, to < worker.demanded);
+                double step = allowance.work() - before;
+                if (step * last_step < 0) ++changes_of_sign;
+                if (step != 0) last_step = step;
+                if (allowance.work() > 0) least = std::min(least, allowance.work());
+                left = std::max(0, left - 1);
+            }
+            double fits = (16 - fixed_ms) / worker.ms_a_piece;
+            EXPECT_LE(ms, 16) << is_both << " " << fixed_ms;
+            EXPECT_GE(ms, 0.8 * 16) << is_both << " " << fixed_ms;
+            EXPECT_GE(least, 0.5 * fits) << is_both << " " << fixed_ms;
+            EXPECT_LE(over, 5 * kChange_frames) << is_both << " " << fixed_ms;
+            EXPECT_LE(changes_of_sign, 2) << is_both << " " << fixed_ms;
+        }
+}
+
 TEST(WorkAllowance, WithoutATimeThereIsNone) {
     WorkAllowance allowance;
-    for (int i = 0; i < 10; ++i) allowance.frame_done(1e9, 1e9, true);
+    for (int i = 0; i < 10; ++i) allowance.frame_done(1e9, 1e9, 1e9, true);
     EXPECT_EQ(allowance.work(), 0);
     allowance.set_most_ms(1);
-    for (int i = 0; i < 10; ++i) allowance.frame_done(1e9, 1e9, true);
+    for (int i = 0; i < 10; ++i) allowance.frame_done(1e9, 1e9, 1e9, true);
     EXPECT_GE(allowance.work(), 1);
     allowance.set_most_ms(0);
     EXPECT_EQ(allowance.work(), 0);

@@ -52,7 +52,7 @@ Result<uint64_t> write_file(const Args& args, const bake_wang_ldi::GroundDone& d
         auto added = bake_wang_ldi::add_scene(*writer, done, args.images, *bake, common);
         if (!added) return tl::unexpected(added.error());
         reports.scene = std::move(*added);
-        bake_wang_ldi::add_scene_options_in_words(args.scene, args.images, *provenance);
+        bake_wang_ldi::add_scene_options_in_words(args.scene, args.images, bake->view, *provenance);
     }
     if (args.makes_no_file()) return 0;
     if (auto added = writer->add_provenance(*provenance); !added) return tl::unexpected(added.error());

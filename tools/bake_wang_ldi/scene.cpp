@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "formats/numbers.h"
+#include "formats/wang_scene_layout.h"
 #include "runtime/view/camera.h"
 
 namespace overlook::bake_wang_ldi {
@@ -32,7 +34,7 @@ Result<wang_ldi::PerspectiveView> view_of(const SceneArgs& args, const ImageArgs
         auto camera = view::parse_camera(args.camera);
         if (!camera)
             return bad_command("--scene-camera {}: x,y,z,heading,pitch[,fov_y] are wanted, in metres and degrees", args.camera);
-        view.position_m = camera->position_m, view.heading_deg = camera->heading_deg, view.pitch_deg = camera->pitch_deg;
+        view.position_m = camera->position_m, view.heading_deg = std::remainder(camera->heading_deg, 360.0), view.pitch_deg = camera->pitch_deg;
         // A camera without a field of view has the images'.
         if (std::count(args.camera.begin(), args.camera.end(), ',') > 4) view.fov_y_deg = camera->fov_y_deg;
     }
@@ -42,6 +44,18 @@ Result<wang_ldi::PerspectiveView> view_of(const SceneArgs& args, const ImageArgs
     view.near_m = args.near_m, view.far_m = args.far_m;
     if (args.far_m > 0 && args.far_m < 1.01 * args.near_m)
         return bad_command("--scene-far-m {}: is not beyond --scene-near-m {}", args.far_m, args.near_m);
+    wang_ldi::PerspectiveLdi of_view;
+    of_view.view = view;
+    if (args.far_m == 0) of_view.view.far_m = 2 * view.near_m;  // the ground's is not known yet
+    if (wang_ldi::ImageFault fault = wang_ldi::fault_of_view(of_view))
+        return bad_command("--scene-camera {}: {}", args.camera, fault.text);
+    // Of the pictures nothing but how many samples each pixel has.
+    uint64_t pictures = 1 + uint64_t(args.directions) * std::size(wang_ldi::kPictureDistances_m);
+    uint64_t least_bytes = pictures * 2 * view.width_px * view.height_px;
+    if (least_bytes > wang_ldi::kMostSceneBytes)
+        return impossible("--scene-size {}: {} pictures take {} bytes at least, more than 2^28; ask for smaller or fewer "
+                          "(--scene-views)",
+                          args.size, pictures, with_commas(least_bytes));
     return view;
 }
 
@@ -117,11 +131,13 @@ Result<wang_ldi::SceneMade> add_scene(container::Writer& writer, const GroundDon
     return made;
 }
 
-void add_scene_options_in_words(const SceneArgs& args, const ImageArgs& images, container::Provenance& provenance) {
+void add_scene_options_in_words(const SceneArgs& args, const ImageArgs& images, const wang_ldi::PerspectiveView& view,
+                                container::Provenance& provenance) {
     auto add = [&](const char* name, const std::string& value) { provenance.options.emplace_back(name, value); };
     add("scene",
-        fmt::format("{} tiles a side, {} pixels, {} to {} m, camera {}", args.side_tiles, args.size, args.near_m,
-                    args.far_m > 0 ? fmt::format("{}", args.far_m) : "all", args.camera.empty() ? "as it is" : args.camera));
+        fmt::format("{} tiles a side, {} pixels, {} to {} m, camera {},{},{},{},{},{}", args.side_tiles, args.size, args.near_m,
+                    args.far_m > 0 ? fmt::format("{}", args.far_m) : "all", view.position_m.x, view.position_m.y, view.position_m.z,
+                    view.heading_deg, view.pitch_deg, view.fov_y_deg));
     add("scene-eyes",
         fmt::format("{} within {} m, layers {}, merged within {}", args.eyes, args.cell_m, args.layers, args.merge_share));
     add("scene-views", fmt::format("{}", args.directions));

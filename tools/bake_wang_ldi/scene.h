@@ -30,7 +30,9 @@ Result<wang_ldi::SceneMade> add_scene(container::Writer& writer, const GroundDon
                                       const wang_ldi::SceneBake& bake, const command::Common& common);
 
 // What of the options decides the bytes, as words.
-void add_scene_options_in_words(const SceneArgs& args, const ImageArgs& images, container::Provenance& provenance);
+// view: of scene_bake_of.
+void add_scene_options_in_words(const SceneArgs& args, const ImageArgs& images, const wang_ldi::PerspectiveView& view,
+                                container::Provenance& provenance);
 
 // A JSON object as text. stored_bytes: of the image in the file.
 std::string scene_json(const wang_ldi::SceneMade& made, uint64_t stored_bytes);

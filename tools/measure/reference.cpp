@@ -33,7 +33,7 @@ std::string shaders_hash(const World& world) {
     }
     if (world.is_chain()) {
         return hash_of(shared + discrete::shaders::kItemInputs + discrete::shaders::kVertex + discrete::shaders::kItem +
-                       discrete::shaders::kFragment + discrete::shaders::kOnePictureMain);
+                       discrete::shaders::kFragment + discrete::shaders::kDoor + discrete::shaders::kOnePictureMain);
     }
     if (world.is_mesh()) {
         return hash_of(shared + mesh::kMeshVertexInputs + mesh::kMeshVertexMain + mesh::kMeshFragment +

@@ -87,14 +87,35 @@ TEST(Ladder, LeavesOutWhatHasNoRoom) {
     Ladder ladder = ladder_of(paper_set(), options);
     std::vector<Stage> stages;
     for (const Rung& rung : ladder.rungs) stages.push_back(rung.stage);
-    EXPECT_EQ(stages, (std::vector{Stage::geometry, Stage::ldi, Stage::ldi, Stage::colour, Stage::bare}));
+    EXPECT_EQ(stages, (std::vector{Stage::geometry, Stage::ldi, Stage::ldi, Stage::colour, Stage::bare, Stage::ldi}));
     EXPECT_EQ(ladder.rungs[3].level, 12u);  // so wide is less than a pixel at 8 m
     EXPECT_EQ(ladder.rungs[1].level, 2u);
     EXPECT_EQ(ladder.rungs[1].from_m, 6);
     options = all_stages(), options.radius_m = 9.5;
     ladder = ladder_of(paper_set(), options);
-    EXPECT_EQ(ladder.rungs.back().stage, Stage::bare);
-    EXPECT_EQ(ladder.rungs[ladder.rungs.size() - 2].level, 4u);
+    EXPECT_EQ(ladder.rungs[ladder.rungs.size() - 2].stage, Stage::bare);
+    EXPECT_EQ(ladder.rungs[ladder.rungs.size() - 3].level, 4u);
+}
+
+// What is at hand whatever else is: of the coarsest level, shown at no distance by itself.
+TEST(Ladder, HasTheCoarsestImagesToStandInForOthers) {
+    for (double radius_m : {8.1, 9.5, 1000.0})
+        for (double samples_from : {0.0, 300.0, 3000.0}) {
+            LadderOptions options = all_stages();
+            options.radius_m = radius_m, options.samples_from = samples_from;
+            Ladder ladder = ladder_of(paper_set(), options);
+            int of_coarsest = 0;
+            for (size_t r = 0; r < ladder.rungs.size(); ++r) {
+                if (ladder.rungs[r].stage != Stage::ldi || ladder.rungs[r].level + 1 != paper_set().levels.size()) continue;
+                ++of_coarsest;
+                if (!std::isinf(ladder.rungs[r].from_m)) continue;
+                for (double distance_m = 0; distance_m < 1e7; distance_m = 1.01 * distance_m + 0.1) {
+                    Mix mix = rungs_at(ladder, distance_m);
+                    ASSERT_TRUE(mix.first != r && mix.second != r) << distance_m;
+                }
+            }
+            EXPECT_EQ(of_coarsest, 1) << radius_m << " " << samples_from;
+        }
 }
 
 TEST(Ladder, SharesAreWholeTogetherAndChangeByLittle) {

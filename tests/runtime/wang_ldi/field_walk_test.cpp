@@ -75,7 +75,8 @@ TEST(FieldWalk, NoTilePopsOnAWalk) {
     EXPECT_LE(greatest, kWhole * kWhole * 4 / 100);
     EXPECT_LE(greatest_beside_geometry, kWhole * kWhole * 8 / 100);
     EXPECT_GT(compared, 100000u);
-    for (Stage stage : {Stage::geometry, Stage::ldi, Stage::texture}) EXPECT_GT(changes[stage], 500) << int(stage);
+    EXPECT_GT(changes[Stage::geometry], 500);  // in half its band
+    for (Stage stage : {Stage::ldi, Stage::texture}) EXPECT_GT(changes[stage], 1000) << int(stage);
 }
 
 TEST(FieldWalk, AWalkOf100KilometresKeepsNothing) {

@@ -55,8 +55,8 @@ double measured_px(const TestField& test, const Field& field, const FieldList& l
                     glm::dvec2 share = pieces * double(1u << item.pieces_log2) - glm::dvec2(half.column, half.row);
                     if (share.x < 0 || share.x >= 1 || share.y < 0 || share.y >= 1) continue;
                     if (half_of(half.diagonal, share.x, share.y) != half.half) continue;
-                    // Where the surface is of the sheared tile, and the sample of it.
-                    double ground_m = half.plane.height_m + glm::dot(half.plane.slope, in_tile);
+                    // The sample stands on the sheared tile in the middle of its pixel.
+                    double ground_m = half.plane.height_m + glm::dot(half.plane.slope, sample);
                     double rounded_m = images.low_m + std::round((up_m - images.low_m) / step_m) * step_m;
                     auto drawn_px = seen_px(camera, {corner_m + sample, ground_m + rounded_m});
                     if (drawn_px) most = std::max(most, glm::length(*drawn_px - *true_px));
@@ -120,7 +120,7 @@ TEST(TileError, SharesGrowFromNothingAsTheErrorPermits) {
     const std::vector<Rung>& rungs = field.ladder().rungs;
     ASSERT_EQ(rungs[0].stage, Stage::geometry);
     for (uint32_t r = 1; r < rungs.size() && rungs[r].stage == Stage::ldi; ++r) {
-        double own_m = sample_error_m(test.images, rungs[r].level);
+        double own_m = sample_error_m(test.images, rungs[r].level, 0);
         EXPECT_EQ(rungs_at(field.ladder(), field.farthest_within_m(own_m * (1 - 1e-6))).second, r - 1);
         Mix above = rungs_at(field.ladder(), field.farthest_within_m(own_m * 1.001));
         EXPECT_LE(above.second == r ? above.second_share : 0, kWhole / 4) << r;

@@ -4,15 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "formats/srgb.h"
+
 namespace overlook::discrete {
 namespace {
-
-double linear_of(double v) {
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-double encoded_of(double v) {
-    return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
 
 uint32_t wrapped(double at, uint32_t size) {
     double whole = std::floor(at), wide = double(size);
@@ -32,10 +27,10 @@ glm::dvec2 uv_at(const Shape& shape, size_t face, const glm::dvec3& weights) {
 }  // namespace
 
 glm::dvec3 linear_of_srgb(const glm::dvec3& encoded) {
-    return {linear_of(encoded.x), linear_of(encoded.y), linear_of(encoded.z)};
+    return {linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z)};
 }
 glm::dvec3 srgb_of_linear(const glm::dvec3& linear) {
-    return {encoded_of(linear.x), encoded_of(linear.y), encoded_of(linear.z)};
+    return {srgb_from_linear(linear.x), srgb_from_linear(linear.y), srgb_from_linear(linear.z)};
 }
 
 Result<Looks> Looks::make(std::span<const caveclod::Surface> surfaces) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/caveclod_octahedral.h"
+#include "formats/wang_ldi_layout.h"
 #include "tools/bake/wang_ldi/palette.h"
 
 namespace overlook::wang_ldi {
@@ -20,11 +21,11 @@ struct Kept {
 
 // By pixel and step, each once.
 std::vector<Kept> kept_of(const ImageSet& set, uint32_t level, const Sampled& sampled) {
-    double step_m = double(set.levels[level].height_step_m), most = std::ceil((set.high_m - set.low_m) / step_m);
+    double step_m = double(set.levels[level].height_step_m), most = double(highest_step(set, level));
     std::vector<Kept> kept;
     kept.reserve(sampled.samples.size());
     for (size_t s = 0; s < sampled.samples.size(); ++s) {
-        double step = std::clamp(std::round(double(sampled.samples[s].height_m) / step_m), 0.0, std::min(most, 65535.0));
+        double step = std::clamp(std::round(double(sampled.samples[s].height_m) / step_m), 0.0, most);
         kept.push_back({sampled.samples[s].pixel, uint32_t(s), uint16_t(step)});
     }
     auto met = [&](const Kept& one) { return sampled.samples[one.sample].met; };

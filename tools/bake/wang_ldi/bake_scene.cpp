@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "formats/steady_math.h"
 #include "runtime/wang_ldi/tiling.h"
 
 namespace overlook::wang_ldi {
@@ -31,7 +32,7 @@ std::vector<PerspectiveView> views_of(const PerspectiveView& own, uint32_t direc
         for (uint32_t d = 0; d < directions; ++d) {
             double heading = (own.heading_deg + 90 + 360.0 * d / directions) * M_PI / 180;
             PerspectiveView view = own;
-            view.position_m += distance_m * glm::dvec3(std::sin(heading), std::cos(heading), 0);
+            view.position_m += distance_m * glm::dvec3(steady::sin(heading), steady::cos(heading), 0);
             views.push_back(view);
         }
     return views;

@@ -25,8 +25,10 @@ class HeldOut {
         if (met.is_of_one_eye && met.eye != eye) met.is_of_one_eye = false, of_one_eye_ -= met.count;
         ++met.count;
     }
+    // Of what is met and nowhere kept: unseen.
+    void lose() { ++hits_, ++of_one_eye_; }
     uint64_t hits() const { return hits_; }
-    // Each eye is held out in turn: of all hits, those in cubes that no other eye has met. 0 if nothing was met.
+    // Each eye is held out in turn: of all hits, those in cubes that no other eye has met, or lost. 0 if nothing was met.
     double unseen_share() const { return hits_ == 0 ? 0 : double(of_one_eye_) / double(hits_); }
     // The share is no more than `goal`, of hits enough to believe it.
     bool is_within(double goal) const { return double(hits_) >= kLeastHits / goal && unseen_share() <= goal; }

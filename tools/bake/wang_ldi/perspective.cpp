@@ -13,6 +13,7 @@
 #include "tools/bake/wang_ldi/assemble.h"
 #include "tools/bake/wang_ldi/held_out.h"
 #include "tools/bake/wang_ldi/picture_blocks.h"
+#include "tools/bake/wang_ldi/shade_rays.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -21,12 +22,12 @@ constexpr uint64_t kEyeStream = 71, kLightStream = 72, kJitterStream = 1000;  //
 constexpr size_t kRaysAtOnce = 256 * rays::kPacket, kLitAtOnce = 256;
 constexpr const char* kNoMemory = "there is not enough memory for the samples of a scene; ask for fewer eyes or pixels";
 
-// For each i below count, by any thread; what runs out of memory in one is said by this one.
-void in_parallel(size_t count, size_t grain, const std::function<void(size_t i)>& body) {
+// All below count, by any thread; what runs out of memory in one is said by this one.
+void in_parallel(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body) {
     std::atomic<bool> is_short = false;
     parallel_ranges(count, grain, [&](size_t begin, size_t end) {
         try {
-            for (size_t i = begin; i < end; ++i) body(i);
+            body(begin, end);
         } catch (const std::bad_alloc&) {
             is_short = true;
         }
@@ -93,7 +94,7 @@ void Collector::keep(uint32_t pixel, double depth_m, const rays::Hit& hit, const
     uint32_t before = rays::kNone, at = heads_[pixel];
     while (at != rays::kNone && places_[at].depth_m * (1 + options_.merge_share) < depth_m) before = at, at = places_[at].next;
     if (at == rays::kNone || depth_m * (1 + options_.merge_share) < places_[at].depth_m) {
-        if (before == rays::kNone && eye > 0) return;
+        if (before == rays::kNone && eye > 0) return held_out_.lose();
         auto added = uint32_t(places_.size());
         (before == rays::kNone ? heads_[pixel] : places_[before].next) = added;
         places_.push_back({depth_m, at, {}, hit, along});
@@ -136,11 +137,13 @@ void Collector::see_all_layers(const std::function<void(double)>& progress) {
     std::vector<std::vector<rays::Hit>> found(kAtOnce);
     for (size_t first = 0; first < pixels_.size() && !is_full(); first += kAtOnce) {
         size_t count = std::min(kAtOnce, pixels_.size() - first);
-        in_parallel(count, 64, [&](size_t i) {
-            uint32_t pixel = pixels_[first + i];
-            glm::vec3 along(sight_.through_pixel(pixel % view_.width_px, pixel / view_.width_px));
-            rays_[first + i] = {glm::vec3(sight_.eye_m), along, float(view_.near_m), float(view_.far_m)};
-            found[i] = stage_.scene.all_hits(rays_[first + i]);
+        in_parallel(count, 64, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                uint32_t pixel = pixels_[first + i];
+                glm::vec3 along(sight_.through_pixel(pixel % view_.width_px, pixel / view_.width_px));
+                rays_[first + i] = {glm::vec3(sight_.eye_m), along, float(view_.near_m), float(view_.far_m)};
+                found[i] = stage_.scene.all_hits(rays_[first + i]);
+            }
         });
         for (size_t i = 0; i < count; ++i)
             for (const rays::Hit& hit : found[i]) keep(pixels_[first + i], double(hit.distance), hit, rays_[first + i].along, 0);
@@ -157,13 +160,16 @@ std::vector<glm::vec3> Collector::colours_of(const Models& models, const Light& 
     std::vector<uint32_t> pixel_of(kept.size());
     for (uint32_t p = 0; p + 1 < image.first.size(); ++p)
         std::fill(pixel_of.begin() + image.first[p], pixel_of.begin() + image.first[p + 1], p);
-    in_parallel(kept.size(), kLitAtOnce, [&](size_t s) {
-        const Place& place = places_[kept[s]];
-        Point point = point_of(models, stage_.copies, place.hit, place.seen_along);
-        point.to_eye = glm::normalize(glm::vec3(view_.position_m) - point.at_m);
-        uint64_t seed = hash_of(options_.seed, kLightStream, pixel_of[s], image.depths[s]);
-        colours[s] = options_.is_unlit ? point.albedo : lit(stage_.scene, point, light, seed);
-        if (!image.normals.empty()) image.normals[s] = code_of_normal(point.normal);
+    in_parallel(kept.size(), kLitAtOnce, [&](size_t begin, size_t end) {
+        ShadowRays rays;
+        for (size_t s = begin; s < end; ++s) {
+            const Place& place = places_[kept[s]];
+            Point point = point_of(models, stage_.copies, place.hit, place.seen_along);
+            point.to_eye = glm::normalize(glm::vec3(view_.position_m) - point.at_m);
+            uint64_t seed = hash_of(options_.seed, kLightStream, pixel_of[s], image.depths[s]);
+            colours[s] = options_.is_unlit ? point.albedo : lit(stage_.scene, point, light, seed, rays);
+            if (!image.normals.empty()) image.normals[s] = code_of_normal(point.normal);
+        }
     });
     return colours;
 }
@@ -172,9 +178,9 @@ PerspectiveMade Collector::take(const Models& models, const Light& light) {
     PerspectiveMade made;
     PerspectiveLdi& image = made.image;
     bool is_picture = options_.eyes == 1 && options_.layers == Layers::seen;
-    image.view = view_, image.is_unlit = options_.is_unlit, image.cell_m = is_picture ? 0 : options_.cell_m;
-    image.unseen_share = is_picture ? 0 : float(held_out_.unseen_share());
-    if (options_.layers == Layers::all) image.unseen_share = 0;
+    image.view = view_, image.is_unlit = options_.is_unlit;
+    if (options_.eyes > 1 && options_.layers == Layers::seen)  // else nothing is known of other eyes
+        image.cell_m = options_.cell_m, image.unseen_share = float(held_out_.unseen_share());
     std::vector<uint32_t> kept;
     image.first = {0};
     for (uint32_t head : heads_) {
@@ -210,7 +216,7 @@ Result<PerspectiveMade> perspective_of(const Models& models, const TraceStage& s
             progress(kSeeing * (eye + 1) / options.eyes);
         }
         if (collector.is_full())
-            return impossible("a scene's image has more than {} samples; ask for fewer eyes or a greater --scene-merge",
+            return impossible("a scene's image has more than {} samples; ask for fewer pixels, fewer eyes or a greater --scene-merge",
                               with_commas(kMostPerspectiveSamples));
         PerspectiveMade made = collector.take(models, light);
         progress(1);

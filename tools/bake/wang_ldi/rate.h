@@ -1,4 +1,5 @@
-// How fast images are sampled and lit, beside a bare loop of packets over the very same rays: what all that is not Embree costs.
+// How fast images are sampled and lit, beside a bare loop over the very same rays by the same packets of rays::Scene: what all that
+// is not tracing costs.
 #pragma once
 
 #include <cstdint>

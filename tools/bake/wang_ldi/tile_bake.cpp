@@ -34,6 +34,7 @@ Sampled TileBake::sampled_and_lit(std::span<const TraceStage> stages, const Wedg
     rate.lit_s += thread_s() - lit, rate.sampled_s += lit - begin, rate.rays += all.rays;
     if (!bake_.is_timed) return all;
     rate.bare_s += bare_s(stages, wedge, options, all.eyes);
+    if (set_.has_normals) return all;  // lit later
     std::vector<std::vector<rays::Ray>> asked(stages.size());
     colours_of(stages, all, wedge, light_seed, &asked);
     for (const auto& of_stage : asked) rate.shadow_rays += of_stage.size();

@@ -136,14 +136,15 @@ Result<void> say_fallbacks(Stage& stage, std::span<const MethodSpec> specs, cons
     if (!ground) return tl::unexpected(ground.error());
     Result<gl::Target> target = gl::Target::make(stage.width_px, stage.height_px, 1);
     if (!target) return tl::unexpected(target.error());
+    std::vector<double> above_m;
+    for (const view::Camera& camera : cameras) above_m.push_back(ground->above_m(camera));
     for (size_t i = 0; i < specs.size(); ++i) {
         std::unique_ptr<Method> method = stage.make(specs[i], stage.world);
         uint32_t outside = 0, unsaid = 0;
         for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
             method->decide(cameras[frame], frame);
             bool is_said = method->draw(*target).is_eye_outside;
-            double above_m = ground->above_m(cameras[frame]);
-            bool is_outside = above_m < cell.eye_low_m - kUnsure_m || above_m > cell.eye_high_m + kUnsure_m;
+            bool is_outside = above_m[frame] < cell.eye_low_m - kUnsure_m || above_m[frame] > cell.eye_high_m + kUnsure_m;
             outside += is_outside, unsaid += is_outside && !is_said;
         }
         findings[i].figures["fallbacks_unsaid"] = unsaid;
