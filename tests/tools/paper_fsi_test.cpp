@@ -93,7 +93,7 @@ Film made_film() {
     for (uint32_t frame = kBefore; frame < kBefore + kFading; ++frame) fading[frame] = 0.002;
     fading[kBefore] = 0.003, fading[kBefore + kFading] = 0.005;
     at_once[kBefore] = 0.021;
-    Film film{"simple", "", {0, 10, 3}, {}, run_of(floor, 1000, 0)};
+    Film film{"simple", "", {0, 10, 3}, {}, run_of(floor, 1000, 0), {run_of(floor, 10, 0), run_of(floor, 1000, 0)}};
     for (const Way& way : kWays) {
         Take take{std::string(way.name), run_of(way.fades ? fading : at_once, 100, way.fades ? kFading : 0)};
         take.run.pop = pop_index(take.run.temporal, film.floor.temporal);
@@ -118,6 +118,36 @@ TEST(Seen, IsOfTheFirstFrameOfAChangeAndOfTheFirstAfterIt) {
     EXPECT_NEAR(fading.end_ratio, 5.0 / 2, 1e-9) << "3, seven times 2 and 5 thousandths";
     EXPECT_NEAR(fading.greatest_ratio, 5.0 / 2, 1e-9);
     EXPECT_NEAR(at_once.end_ratio, 21, 1e-9) << "in the time that others take it rests";
+}
+
+// A coarse level that is as restless as the change is no pop of the change.
+TEST(Seen, HoldsTheEndsOfAChangeAgainstWhatItsLevelsHaveAtRest) {
+    Film film = made_film();
+    std::vector<double> coarse(kFilmFrames, 0.004);
+    film.standing[0] = run_of(coarse, 10, 0);
+    Seen fading = seen_of(film, film.takes[kOwn]), at_once = seen_of(film, film.takes[kSwitch]);
+    EXPECT_DOUBLE_EQ(fading.entering_pop, 1) << "3 thousandths in the change, 4 without it";
+    EXPECT_NEAR(fading.leaving_pop, 1 + 0.001 / 0.002, 1e-4) << "by the floor's median as before";
+    EXPECT_NEAR(fading.standing_pop, 1 + 0.003 / 0.002, 1e-4);
+    EXPECT_NEAR(at_once.entering_pop, 1 + 0.017 / 0.002, 1e-4);
+    EXPECT_NEAR(fading.pop, 1 + 0.004 / 0.002, 1e-3) << "the film's, by the floor alone";
+}
+
+// However many frames one method shows the coarse level and another the fine one.
+TEST(Seen, HoldsRestAgainstHardSwitchingFrameByFrame) {
+    Film film = made_film();
+    for (Take& take : film.takes) {
+        uint32_t end = take.name == "switch" ? kBefore : kBefore + kFading;
+        for (uint32_t frame = 1; frame < end; ++frame) take.run.frames[frame].numbers.w = 0.005;
+        if (take.name == "switch") take.run.frames[kBefore].numbers.w = 0.021;
+    }
+    Seen fading = seen_of(film, film.takes[kOwn]);
+    EXPECT_DOUBLE_EQ(fading.rest_ratio, 1) << "in the median of the film 5 thousandths over 1";
+    EXPECT_GT(fading.median_w, 4 * seen_of(film, film.takes[kSwitch]).median_w);
+    EXPECT_NEAR(fading.change_ratio, (8 * 0.005 + 0.005) / (0.021 + 8 * 0.001), 1e-9);
+    for (uint32_t frame = kBefore + kFading + 1; frame < kFilmFrames; ++frame)
+        film.takes[kOwn].run.frames[frame].numbers.w = 0.0013;
+    EXPECT_NEAR(seen_of(film, film.takes[kOwn]).rest_ratio, 1.3, 1e-9) << "what stays restless is seen after the change";
 }
 
 Flown made_flown() {
@@ -150,6 +180,8 @@ TEST(FsiTargets, AreOfTheFilmsAndOfFigure8) {
     std::vector<Target> targets = targets_of(made_flown());
     EXPECT_NEAR(*named(targets, "pop index").measured[1], 3, 1e-3);
     EXPECT_NEAR(*named(targets, "W on entering").measured[1], 2.5, 1e-6);
+    EXPECT_NEAR(*named(targets, "median W at rest").measured[1], 1, 1e-9);
+    EXPECT_NEAR(*named(targets, "W of the frames of a change").measured[1], (3 + 7 * 2 + 5) / (21 + 8.0), 1e-9);
     EXPECT_NEAR(*named(targets, "triangles a frame").measured[1], 1.01, 1e-9);
     EXPECT_NEAR(*named(targets, "the combination pass").measured[1], 3, 1e-9);
     EXPECT_NEAR(*named(targets, "the combination pass").measured[0], 1, 1e-9);

@@ -52,12 +52,44 @@ std::vector<scene::Instance> standing(const discrete::Chain& chain, double up_m,
     return all;
 }
 
+// Frames from `first` to before `end`.
+struct Span {
+    uint32_t first = 0, end = 0;
+    bool holds(uint32_t frame) const { return frame >= first && frame < end; }
+};
+
 // Pop index of some frames alone, by the median of all.
-double pop_within(const Take& take, const RunResult& floor, uint32_t first, uint32_t end) {
-    std::vector<TemporalError> errors = floor.temporal;
+double pop_within(const RunResult& run, std::span<const TemporalError> base, Span frames) {
+    std::vector<TemporalError> errors(base.begin(), base.end());
     for (size_t i = 0; i < errors.size(); ++i)
-        if (errors[i].frame >= first && errors[i].frame < end) errors[i] = take.run.temporal[i];
-    return pop_index(errors, floor.temporal).index;
+        if (frames.holds(errors[i].frame)) errors[i] = run.temporal[i];
+    return pop_index(errors, base).index;
+}
+
+// The greatest that is there without a change in each frame and tile: either level at rest, or the floor, whose mean it has.
+std::vector<TemporalError> unrest_at_rest(const Film& film) {
+    std::vector<TemporalError> base = film.floor.temporal;
+    for (const RunResult& level : film.standing)
+        for (size_t i = 0; i < base.size(); ++i)
+            for (size_t tile = 0; tile < base[i].tiles.size(); ++tile)
+                base[i].tiles[tile] = std::max(base[i].tiles[tile], level.temporal[i].tiles[tile]);
+    return base;
+}
+
+double w_of(const RunResult& run, uint32_t frame) {
+    return *run.frames[frame].numbers.w;
+}
+
+double median_w(const RunResult& run, Span frames) {
+    std::vector<double> w;
+    for (uint32_t frame = frames.first; frame < frames.end; ++frame) w.push_back(w_of(run, frame));
+    return std::max(1e-9, percentile(std::span<const double>(w), 0.5));
+}
+
+double summed_w(const RunResult& run, Span frames) {
+    double sum = 0;
+    for (uint32_t frame = frames.first; frame < frames.end; ++frame) sum += w_of(run, frame);
+    return std::max(1e-9, sum);
 }
 
 // Half as wide and as high.
@@ -71,7 +103,26 @@ ImageRgb8 middle_of(const ImageRgb8& image) {
 }
 
 double excess(const Take& take, const RunResult& floor, uint32_t frame) {
-    return 1000 * (*take.run.frames[frame].numbers.w - *floor.frames[frame].numbers.w);
+    return 1000 * (w_of(take.run, frame) - w_of(floor, frame));
+}
+
+// The time of a change that fades: its first frame to the first after it, of every way.
+constexpr Span kUnderWay = {kBefore, kBefore + kFading + 1};
+
+// end: the first frame after the take's last that is under way.
+void hold_against_rest(const Film& film, const Take& take, uint32_t end, Seen& seen) {
+    std::vector<TemporalError> base = unrest_at_rest(film);
+    Span entering{kBefore, kBefore + 2}, leaving{std::max(end, kBefore + 1) - 1, end + 1};
+    seen.entering_pop = pop_within(take.run, base, entering);
+    seen.leaving_pop = pop_within(take.run, base, leaving);
+    for (const RunResult& level : film.standing)
+        for (Span frames : {entering, leaving})
+            seen.standing_pop = std::max(seen.standing_pop, pop_within(level, film.floor.temporal, frames));
+    const RunResult& at_once = film.takes.front().run;
+    seen.rest_ratio = 0;
+    for (Span frames : {Span{1, kBefore}, Span{kUnderWay.end, kFilmFrames}})
+        seen.rest_ratio = std::max(seen.rest_ratio, median_w(take.run, frames) / median_w(at_once, frames));
+    seen.change_ratio = summed_w(take.run, kUnderWay) / summed_w(at_once, kUnderWay);
 }
 
 }  // namespace
@@ -94,6 +145,13 @@ Stand stand_of(const discrete::Chain& chain, double error_px) {
 std::string settings_of(const Stand& stand, const Way& way) {
     if (way.name == kWays[kLate].name) return "";
     return fmt::format("@by=distance@distance-m={}@refine-share=1@coarsen-share=0.99", first_distance_m(stand));
+}
+
+std::string settings_of_standing(const Stand& stand, bool is_finer) {
+    constexpr double kFarther = 1.2, kNearer = 0.8;  // well off the arc, and those behind keep what they have: 1.5 is between
+    static_assert(kBehind > kFarther && kBehind < 2 * kNearer);
+    return fmt::format("@by=distance@distance-m={}@refine-share=1@coarsen-share=0.99",
+                       (is_finer ? kFarther : kNearer) * first_distance_m(stand));
 }
 
 double first_distance_m(const Stand& stand) {
@@ -133,14 +191,17 @@ Result<World> film_world(const World& scene, const Stand& stand) {
 Result<Film> shoot(World& world, const Script& script, const gl::Renderer& renderer, const std::function<void(double)>& done) {
     Course course;
     for (const Take& take : script.takes) course.specs.push_back(take.run.spec);
+    for (bool is_finer : {false, true})
+        course.specs.push_back(spec_of(kWays[kSwitch], settings_of_standing(script.stand, is_finer)));
     add_floors(course.specs);
     course.cameras = film_cameras(script.stand, world.base);
     course.step_s = kFilmStep_s;
     course.compared = Compared::steps;
     Result<CourseResult> flown = run_course(world, course, renderer, "", done);
     if (!flown) return tl::unexpected(flown.error());
-    Film film{script.name, script.chain, script.stand, {}, {}};
+    Film film{script.name, script.chain, script.stand, {}, {}, {}};
     film.floor = flown->runs[flown->runs[0].floor];
+    for (size_t i = 0; i < film.standing.size(); ++i) film.standing[i] = std::move(flown->runs[script.takes.size() + i]);
     for (size_t i = 0; i < script.takes.size(); ++i) film.takes.push_back({script.takes[i].name, std::move(flown->runs[i])});
     return film;
 }
@@ -187,14 +248,12 @@ Seen seen_of(const Film& film, const Take& take) {
         before = triangles;
     }
     seen.triangles = sum / kFading;
-    std::vector<double> under_way;
-    for (uint32_t frame = kBefore; frame <= kBefore + kFading; ++frame) under_way.push_back(*run.frames[frame].numbers.w);
-    double median = std::max(1e-9, percentile(std::span<const double>(under_way), 0.5));
-    seen.end_ratio = std::max(*run.frames[kBefore].numbers.w, *run.frames[end].numbers.w) / median;
-    seen.greatest_ratio = *std::max_element(under_way.begin(), under_way.end()) / median;
+    double median = median_w(run, kUnderWay), greatest = 0;
+    for (uint32_t frame = kUnderWay.first; frame < kUnderWay.end; ++frame) greatest = std::max(greatest, w_of(run, frame));
+    seen.end_ratio = std::max(w_of(run, kBefore), w_of(run, end)) / median;
+    seen.greatest_ratio = greatest / median;
     seen.median_w = 1000 * percentiles_of(run, "w_luma").p50;
-    seen.entering_pop = pop_within(take, film.floor, kBefore, kBefore + 2);
-    seen.leaving_pop = pop_within(take, film.floor, std::max(end, kBefore + 1) - 1, end + 1);
+    hold_against_rest(film, take, end, seen);
     seen.pop = run.pop.index;
     seen.buffer_bytes =
         double(run.frames.back().counters.resident_bytes) - double(film.takes.front().run.frames.back().counters.resident_bytes);
@@ -204,15 +263,17 @@ Seen seen_of(const Film& film, const Take& take) {
 std::string films_csv(const std::vector<Film>& films) {
     std::string csv =
         "scene,chain,method,from_level,to_level,distance_m,instances,entering_w_1000,leaving_w_1000,greatest_w_1000,"
-        "integrated_w_1000,median_w_1000,entering_pop,leaving_pop,pop,end_ratio,greatest_ratio,triangles,odd_even_share,buffer_"
+        "integrated_w_1000,median_w_1000,entering_pop,leaving_pop,pop,standing_pop,rest_ratio,change_ratio,end_ratio,greatest_"
+        "ratio,triangles,odd_even_share,buffer_"
         "bytes\n";
     for (const Film& film : films)
         for (const Take& take : film.takes) {
             Seen s = seen_of(film, take);
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", film.name, film.chain, take.name,
-                               film.stand.change + 1, film.stand.change, film.stand.distance_m, film.stand.count, s.entering_w,
-                               s.leaving_w, s.greatest_w, s.integrated_w, s.median_w, s.entering_pop, s.leaving_pop, s.pop,
-                               s.end_ratio, s.greatest_ratio, s.triangles, s.odd_even, s.buffer_bytes);
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", film.name, film.chain,
+                               take.name, film.stand.change + 1, film.stand.change, film.stand.distance_m, film.stand.count,
+                               s.entering_w, s.leaving_w, s.greatest_w, s.integrated_w, s.median_w, s.entering_pop, s.leaving_pop,
+                               s.pop, s.standing_pop, s.rest_ratio, s.change_ratio, s.end_ratio, s.greatest_ratio, s.triangles,
+                               s.odd_even, s.buffer_bytes);
         }
     return csv;
 }

@@ -2,6 +2,7 @@
 // leaving the transition are frames that are known.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -34,6 +35,9 @@ Stand stand_of(const discrete::Chain& chain, double error_px);
 // nobody sees, as always.
 std::string settings_of(const Stand& stand, const Way& way);
 
+// The same by hard switching, so that the things of the arc keep one of their two levels all the time, those behind them theirs.
+std::string settings_of_standing(const Stand& stand, bool is_finer);
+
 // From where on level 1 does, so that level change + 1 gives way to level change on the arc.
 double first_distance_m(const Stand& stand);
 
@@ -54,6 +58,7 @@ struct Film {
     Stand stand;
     std::vector<Take> takes;
     RunResult floor;
+    std::array<RunResult, 2> standing;  // the arc's things keep the coarser level; the finer one
     std::string label() const { return chain.empty() ? name : name + ", " + chain; }
 };
 
@@ -75,10 +80,15 @@ struct Seen {
     // W as it is over its median in the time of a change that fades (its first frame to the first after it, of every way): the
     // worse of the change's first frame and of the first after its last, and of all of them.
     double end_ratio = 1, greatest_ratio = 1;
-    double entering_pop = 1, leaving_pop = 1, pop = 1;  // pop index of the first two frames, of the last two, of the film
-    double triangles = 0;                               // a frame of the change, in the mean
-    double odd_even = 0;                                // greatest difference of consecutive frames in the change, share
-    double buffer_bytes = 0;                            // beside what `switch` keeps
+    // W of the film's frames before the change and of those after it, over hard switching's in the same frames, medians both: the
+    // worse of the two; and summed over the time of a change that fades, where hard switching has all of its change in one frame.
+    double rest_ratio = 1, change_ratio = 1;
+    // Pop index of the first two frames, of the last two, over what either level has at rest in the same frame and tile (or the
+    // floor, if that is more); of the film, over the floor alone. And the greatest that one level at rest has there, so counted.
+    double entering_pop = 1, leaving_pop = 1, pop = 1, standing_pop = 1;
+    double triangles = 0;     // a frame of the change, in the mean
+    double odd_even = 0;      // greatest difference of consecutive frames in the change, share
+    double buffer_bytes = 0;  // beside what `switch` keeps
 };
 Seen seen_of(const Film& film, const Take& take);
 

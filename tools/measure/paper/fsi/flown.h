@@ -20,7 +20,7 @@ struct Flown {
     std::vector<Point> points;        // figure 8
     std::vector<Film> films;          // every way, of each scene and chain
     std::vector<Film> varied;         // variations(), of some
-    std::vector<Film> optimised;      // of scenes with a visibility that was optimised: those ways of `films` that use one
+    std::vector<Film> optimised;      // of scenes with a visibility that was optimised: `switch` and the ways that use one
     std::vector<Combining> combining;
     std::vector<std::pair<std::string, std::vector<Drawback>>> drawbacks;  // by scene
     std::vector<Picture> pictures, sequences;                              // figures 1 to 7; of each film

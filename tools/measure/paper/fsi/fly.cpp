@@ -40,8 +40,9 @@ Script script_of(const Job& job, const Stand& stand) {
     if (job.what == Job::What::variations) return script_of_variations(job.subject->name, job.chain, stand);
     Script script{job.subject->name, job.chain, stand, {}};
     for (const Way& way : kWays) {
-        bool has_visibility = way.name == kWays[kPaper].name || way.name == kWays[kOwn].name;
-        if (job.what == Job::What::optimised && !has_visibility) continue;
+        // Ways with a visibility, and what they are held against.
+        bool is_of_it = way.name == kWays[kPaper].name || way.name == kWays[kOwn].name || way.name == kWays[kSwitch].name;
+        if (job.what == Job::What::optimised && !is_of_it) continue;
         Take take{std::string(way.name), {}};
         take.run.spec = spec_of(way, settings_of(stand, way));
         script.takes.push_back(std::move(take));

@@ -62,17 +62,18 @@ std::string film_html(const Film& film) {
     std::string html =
         fmt::format("<h3>{}</h3>\n", escaped(title_of(film.name) + (film.chain.empty() ? "" : ", levels " + film.chain))) +
         kTable +
-        table_row(
-            {"", "W entering", "W leaving", "W greatest", "W of the change", "median W", "ends, times median",
-             "greatest, times median", "pop entering", "pop leaving", "pop index", "triangles", "frame to frame, %", "buffers"},
-            "th") +
+        table_row({"", "W entering", "W leaving", "W greatest", "W of the change", "median W", "at rest, times switch",
+                   "in the change, times switch", "ends, times median", "greatest, times median", "pop entering", "pop leaving",
+                   "levels at rest", "pop index", "triangles", "frame to frame, %", "buffers"},
+                  "th") +
         "</thead>\n<tbody>\n";
     for (const Take& take : film.takes) {
         Seen seen = seen_of(film, take);
         html += table_row({escaped(take.name), short_number(seen.entering_w), short_number(seen.leaving_w),
                            short_number(seen.greatest_w), short_number(seen.integrated_w), short_number(seen.median_w),
-                           short_number(seen.end_ratio), short_number(seen.greatest_ratio), short_number(seen.entering_pop),
-                           short_number(seen.leaving_pop), short_number(seen.pop), short_count(seen.triangles),
+                           short_number(seen.rest_ratio), short_number(seen.change_ratio), short_number(seen.end_ratio),
+                           short_number(seen.greatest_ratio), short_number(seen.entering_pop), short_number(seen.leaving_pop),
+                           short_number(seen.standing_pop), short_number(seen.pop), short_count(seen.triangles),
                            short_number(100 * seen.odd_even), short_bytes(seen.buffer_bytes)},
                           "td");
     }
@@ -88,10 +89,16 @@ std::string films_html(const Flown& flown) {
         "x 4 "
         "supersampled, does not have, over what full geometry at the method's samples has, in thousandths; of the change: summed "
         "over "
-        "its frames. Times median: W as it is in the frame in which the change begins or the first after it, and in any frame of "
-        "it, over its "
+        "its frames. Times switch: W as it is over hard switching's in the same frames, of the frames before the change or of "
+        "those "
+        "after it, whichever is worse, and summed over the change's, of which hard switching has all in one; the median of a "
+        "whole "
+        "film is that of whichever level a method shows longer, and compares one method's coarse level with another's fine one. "
+        "Times median: W as it is in the frame in which the change begins or the first after it, and in any frame of it, over "
+        "its "
         "median from the one to the other. Pop index: of the worst tile of the two frames in which the change begins and ends, "
-        "and of the whole film, by the floor.</p>\n";
+        "over the greatest W that its two levels have at rest in that frame and tile, or the floor if that has more; beside it "
+        "what one level at rest has there over the floor, where nothing changes; and of the whole film, over the floor.</p>\n";
     for (const Film& film : flown.films) html += film_html(film);
     return html + "<p class=\"note\"><a href=\"films.csv\">films.csv</a></p>\n";
 }
