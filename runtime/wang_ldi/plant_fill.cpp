@@ -39,7 +39,7 @@ inline Four linear_of(const std::array<uint16_t, 4>& texel) {
 
 }  // namespace
 
-bool PlantFill::is_open(int x, int y) const {
+bool PlantFill::lets_through(int x, int y) const {
     auto from_below = uint32_t(int(canvas_->height_px()) - 1 - y);
     return kDoor[(from_below & 7) << 3 | (uint32_t(x) & 7)] < share_;
 }

@@ -45,16 +45,31 @@ struct PixelBox {
 
 class PlantFill {
   public:
-    // share: of the pixels, by a screen door (Bayer 1973) as discrete's shaders have it; from 1 on: all.
-    void begin(Canvas& canvas, float share) { canvas_ = &canvas, share_ = share; }
+    // Of the canvas columns [left, right). share: of the pixels, by a screen door (Bayer 1973) as discrete's shaders have it;
+    // from 1 on: all.
+    void begin(Canvas& canvas, int left, int right, float share) {
+        canvas_ = &canvas, left_ = left, right_ = right, share_ = share;
+    }
 
+    PixelBox columns() const { return {left_, 0, right_, int(canvas_->height_px())}; }
     PixelBox box_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2) const {
         constexpr int kHalf = kCornerSteps / 2;
         auto first = [](int32_t low) { return (low + kHalf - 1) >> 8; };
         auto last = [](int32_t high) { return ((high - kHalf) >> 8) + 1; };
-        return {std::max(0, first(std::min({x0, x1, x2}))), std::max(0, first(std::min({y0, y1, y2}))),
-                std::min(int(canvas_->width_px()), last(std::max({x0, x1, x2}))),
+        return {std::max(left_, first(std::min({x0, x1, x2}))), std::max(0, first(std::min({y0, y1, y2}))),
+                std::min(right_, last(std::max({x0, x1, x2}))),
                 std::min(int(canvas_->height_px()), last(std::max({y0, y1, y2})))};
+    }
+
+    // Whether something nearer than depth_m may be missing from a pixel of the box.
+    bool is_open(const PixelBox& box, float depth_m) const {
+        int64_t nearest = pixel_key(depth_m, 0);
+        for (int y = box.top; y < box.bottom; ++y) {
+            const int64_t* row = canvas_->row(uint32_t(y));
+            for (int x = box.left; x < box.right; ++x)
+                if (row[x] >= nearest) return true;
+        }
+        return false;
     }
 
     // lights(triangle): called before the first of its pixels is coloured, to give its corners their colours.
@@ -62,12 +77,13 @@ class PlantFill {
     void draw(const Skin& skin, Filled& triangle, const PixelBox& box, const Lights& lights);
 
   private:
-    bool is_open(int x, int y) const;
+    bool lets_through(int x, int y) const;
     static const Skin::Level& skin_level(const Skin& skin, const Filled& triangle);
     static Four texel(const Skin::Level& level, float u, float v);
     static uint32_t encoded(const Four& linear);
 
     Canvas* canvas_ = nullptr;
+    int left_ = 0, right_ = 0;
     float share_ = 1;
 };
 
@@ -118,7 +134,7 @@ void PlantFill::draw(const Skin& skin, Filled& triangle, const PixelBox& box, co
             float w2 = (float(e2) * kCornerSteps + edges[2].part) * of_area * c.nearness;
             float depth_m = 1 / (w0 + w1 + w2);
             if (std::bit_cast<uint32_t>(depth_m) > uint32_t(uint64_t(row[x]) >> 32)) continue;
-            if (share_ < 1 && !is_open(box.left + x, y)) continue;
+            if (share_ < 1 && !lets_through(box.left + x, y)) continue;
             if (level == nullptr) lights(triangle), level = &skin_level(skin, triangle);
             w0 *= depth_m, w1 *= depth_m, w2 *= depth_m;
             Four own = w0 * a.colour + w1 * b.colour + w2 * c.colour;

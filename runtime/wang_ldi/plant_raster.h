@@ -2,14 +2,15 @@
 // which a renderer that can draw anything does most of its work for nothing.
 //
 // Based on: J. Pineda, A Parallel Algorithm for Polygon Rasterization, 1988 (edge functions); H. Gouraud, Continuous Shading of
-// Curved Surfaces, 1971 (light at corners). Ours: colours and depths go into the warper's canvases, so that threads draw whole
-// plants in any order and the picture is the same.
+// Curved Surfaces, 1971 (light at corners). Ours: each thread draws the plants of one strip of the picture after the other, the
+// nearest first, and leaves out what is hidden, bunch of triangles by bunch.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "runtime/wang_ldi/canvas.h"
 #include "runtime/wang_ldi/plant_levels.h"
 #include "runtime/wang_ldi/plant_light.h"
 #include "runtime/wang_ldi/plant_shapes.h"
@@ -17,7 +18,7 @@
 
 namespace overlook::wang_ldi {
 
-// Keeps canvases from picture to picture; one for each thread that draws at the same time.
+// Keeps a canvas from picture to picture; one for each thread that draws pictures at the same time.
 class PlantRaster {
   public:
     PlantRaster();
@@ -26,13 +27,12 @@ class PlantRaster {
     PlantRaster& operator=(const PlantRaster&) = delete;
 
     // Draws over what the picture, which has the camera's size, shows, by depth: a pixel shows what its middle is in. Same
-    // picture with any number of threads. shapes: one a model. Memory: 8 bytes for each pixel and thread, kept.
+    // picture with any number of threads. shapes: one a model. Memory: 8 bytes for each pixel, kept.
     void draw(const view::Camera& camera, std::span<const PlantShape> shapes, const PlantLight& light,
               std::span<const PlantList> lists, Warped& picture);
 
   private:
-    struct Threads;
-    std::unique_ptr<Threads> threads_;
+    std::unique_ptr<Canvas> canvas_;
 };
 
 }  // namespace overlook::wang_ldi

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "formats/srgb.h"
 #include "runtime/discrete/poses.h"
@@ -48,15 +50,45 @@ void add_vertex(const discrete::Chain& chain, const discrete::Vertex& vertex, bo
         {float(chain.uv_low.x + vertex.uv[0] * chain.uv_step), float(chain.uv_low.y + vertex.uv[1] * chain.uv_step)});
 }
 
-CornerSides sides_of(const ShapeLevel& level, const uint32_t* corners) {
-    auto at = [&](int c) { return glm::vec3(level.x_m[corners[c]], level.y_m[corners[c]], level.z_m[corners[c]]); };
+CornerSides sides_of(const ShapeLevel& level, const ShapeBunch& bunch, const uint16_t* corners) {
+    auto vertex = [&](int c) { return bunch.first_vertex + corners[c]; };
+    auto at = [&](int c) { return glm::vec3(level.x_m[vertex(c)], level.y_m[vertex(c)], level.z_m[vertex(c)]); };
     glm::vec3 face = glm::cross(at(1) - at(0), at(2) - at(0));
     CornerSides sides = 0;
     for (int c = 0; c < 3; ++c) {
-        const auto& n = level.normals[corners[c]];
+        const auto& n = level.normals[vertex(c)];
         sides = CornerSides(sides | (glm::dot(face, glm::vec3(n[0], n[1], n[2])) >= 0) << c);
     }
     return sides;
+}
+
+void find_box(const ShapeLevel& level, ShapeBunch& bunch) {
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (uint32_t v = bunch.first_vertex; v < bunch.first_vertex + bunch.vertex_count; ++v) {
+        glm::vec3 at(level.x_m[v], level.y_m[v], level.z_m[v]);
+        low = glm::min(low, at), high = glm::max(high, at);
+    }
+    if (bunch.vertex_count > 0) bunch.middle_m = (low + high) / 2.0f, bunch.half_m = (high - low) / 2.0f;
+}
+
+// Triangles [begin, end) of all indices, which are of one skin.
+void add_bunch(const discrete::Chain& chain, const discrete::Level& from, uint32_t begin, uint32_t end, uint32_t skin,
+               ShapeLevel& level) {
+    bool has_normals = chain.attributes.normals && !from.is_plain;
+    ShapeBunch bunch;
+    bunch.skin = skin;
+    bunch.first_vertex = uint32_t(level.x_m.size()), bunch.first_index = uint32_t(level.indices.size());
+    std::map<uint32_t, uint16_t> own;
+    for (uint32_t i = begin; i < end; ++i) {
+        auto [at, is_new] = own.try_emplace(from.indices[i], uint16_t(own.size()));
+        if (is_new) add_vertex(chain, from.vertices[from.indices[i]], has_normals, level);
+        level.indices.push_back(at->second);
+    }
+    bunch.vertex_count = uint32_t(own.size()), bunch.index_count = end - begin;
+    find_box(level, bunch);
+    for (uint32_t i = 0; has_normals && i < bunch.index_count; i += 3)
+        level.sides.push_back(sides_of(level, bunch, &level.indices[bunch.first_index + i]));
+    level.bunches.push_back(bunch);
 }
 
 }  // namespace
@@ -91,13 +123,12 @@ PlantShape shape_of(const discrete::Chain& chain, std::vector<Skin> skins) {
     for (const caveclod::Surface& surface : chain.surfaces) shape.skins.push_back(plain_skin(surface));
     for (const discrete::Level& from : chain.levels) {
         ShapeLevel& level = shape.levels.emplace_back();
-        bool has_normals = chain.attributes.normals && !from.is_plain;
-        for (const discrete::Vertex& vertex : from.vertices) add_vertex(chain, vertex, has_normals, level);
-        level.indices = from.indices, level.draws = from.draws;
-        if (from.is_plain)
-            for (discrete::Draw& draw : level.draws) draw.surface += surfaces;
-        if (!has_normals) continue;
-        for (size_t i = 0; i < level.indices.size(); i += 3) level.sides.push_back(sides_of(level, &level.indices[i]));
+        for (const discrete::Draw& draw : from.draws)
+            for (uint32_t i = 0; i < draw.index_count; i += 3 * kMostInBunch)
+                add_bunch(chain, from, draw.first_index + i, draw.first_index + std::min(i + 3 * kMostInBunch, draw.index_count),
+                          draw.surface + (from.is_plain ? surfaces : 0), level);
+        level.all.vertex_count = uint32_t(level.x_m.size());
+        find_box(level, level.all);
     }
     return shape;
 }

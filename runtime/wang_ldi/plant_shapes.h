@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -29,14 +30,24 @@ Skin plain_skin(const caveclod::Surface& surface);
 // Which of a triangle's corners have normals on the side from which it is counter-clockwise: a bit each.
 using CornerSides = uint8_t;
 
+// Neighbouring triangles of one skin, with vertices of their own.
+struct ShapeBunch {
+    glm::vec3 middle_m{0}, half_m{0};  // a box round them, in the chain's own world
+    uint32_t skin = 0;
+    uint32_t first_vertex = 0, vertex_count = 0;
+    uint32_t first_index = 0, index_count = 0;
+};
+constexpr uint32_t kMostInBunch = 128;  // triangles
+
 struct ShapeLevel {
+    ShapeBunch all;  // the box round everything
+    std::vector<ShapeBunch> bunches;
     std::vector<float> x_m, y_m, z_m;           // [vertices], upright from the chain's own foot at (0, 0, 0)
     std::vector<std::array<float, 3>> normals;  // [vertices], of length 1; none: faces have their own
     std::vector<std::array<float, 4>> tints;    // [vertices], linear, fourth opacity
     std::vector<std::array<float, 2>> uvs;      // [vertices]
-    std::vector<uint32_t> indices;              // three a triangle
+    std::vector<uint16_t> indices;              // three a triangle, from its bunch's first vertex
     std::vector<CornerSides> sides;             // [indices / 3]
-    std::vector<discrete::Draw> draws;          // of indices; surface: of skins
 };
 
 struct PlantShape {
