@@ -35,7 +35,7 @@ class PlantingSubject : public Subject {
     double least_speed_m_s() const override { return 2; }
 
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
-        if (Result<void> ready = make_ready(style); !ready) return tl::unexpected(ready.error());
+        if (Result<void> ready = make_ready(style, target.samples()); !ready) return tl::unexpected(ready.error());
         gl::Timer deciding;
         if (Result<void> decided = frames_->decide(camera, style.dt_s, style.morph); !decided)
             return tl::unexpected(decided.error());
@@ -63,10 +63,10 @@ class PlantingSubject : public Subject {
     }
 
     // With the method and the error of this frame.
-    Result<void> make_ready(const FrameStyle& style) {
+    Result<void> make_ready(const FrameStyle& style, uint32_t samples) {
         wang_ldi::FrameOptions wanted = options_;
         wanted.variant = planting_variant_of(style.method);
-        wanted.error_px = style.error_px;
+        wanted.error_px = style.error_px, wanted.samples = samples;
         wanted.shows_rings = wanted.shows_rings != style.shows_sources;
         wanted.is_pipelined = wanted.is_pipelined || style.is_pipelined;
         if (frames_ != nullptr) {

@@ -96,6 +96,13 @@ bool FrameDrawer::is_warped_by_card() const {
     return options_.warper == Warper::card || (options_.warper == Warper::by_renderer && !is_software_);
 }
 
+bool FrameDrawer::are_plants_by_processor() const {
+    if (is_warped_by_card() || options_.is_exact || !options_.is_by_depth || land_.plants == nullptr) return false;
+    bool is_asked = options_.geometry_by == Warper::processor;
+    bool is_best = options_.geometry_by == Warper::by_renderer && is_software_ && options_.samples <= 1;
+    return (is_asked || is_best) && !land_.plants->shapes().empty();
+}
+
 void FrameDrawer::wait() {
     if (warping_.valid()) warping_.get();
 }
@@ -134,6 +141,7 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     if (Result<void> listed = list(slot, dt_s); !listed) return listed;
     FrameCounts& counts = slot.counts;
     list_plants(slot);
+    counts.plants = counts_of(slot.plants), counts.are_plants_by_processor = are_plants_by_processor();
     counts.list_ms = clock.elapsed_ms();
     counts.triangle_count = slot.cut.triangle_count(), counts.void_rim_triangle_count = slot.cut.void_rim_triangle_count;
     counts.terrain_tested_count = slot.cut.tested_count;
@@ -153,11 +161,14 @@ FrameOptions FrameDrawer::field_options() const {
 }
 
 void FrameDrawer::list_plants(Slot& slot) const {
-    slot.plants.assign(planted_.planting().models.size(), {});
+    slot.plants.clear();
+    if (land_.plants == nullptr) return;
+    std::vector<PlantPlaces> by_model(planted_.planting().models.size());
     for (const Item& item : slot.list.items)
         for (const Shown& shown : slot.list.shown_of(item))
             if (slot.field->ladder().rungs[shown.rung].stage == Stage::geometry)
-                add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, slot.plants);
+                add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, by_model);
+    slot.plants = land_.plants->lists(slot.camera, by_model, options_.error_px);
 }
 
 // And has its images at hand, or others in their place.
@@ -237,14 +248,18 @@ void FrameDrawer::warp(Slot& slot) {
         slot.counts.holes_filled = fast_.holes_filled();
     }
     slot.counts.warp_ms = clock.elapsed_ms();
+    if (!slot.counts.are_plants_by_processor) return;
+    Clock of_plants;
+    raster_.draw(slot.camera, land_.plants->shapes(), land_.plants->light(), slot.plants, slot.picture);
+    slot.counts.plants_ms = of_plants.elapsed_ms();
 }
 
 void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& look) {
     Slot& slot = slots_[shown_];
     view::Camera local = moved(slot.camera, -slot.origin_m);
     land_.drawing->draw(target, slot.cut, local, look);
-    slot.counts.plants = {};
-    if (land_.plants != nullptr) slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants, options_.error_px);
+    if (land_.plants != nullptr && !slot.counts.are_plants_by_processor)
+        slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants);
     slot.counts.planting_error_px = std::max(slot.images_error_px, slot.counts.plants.error_px);
     slot.counts.predicted_error_px = std::max(slot.cut.predicted_error_px, slot.counts.planting_error_px);
     slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes;

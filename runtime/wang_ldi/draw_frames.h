@@ -15,6 +15,7 @@
 #include "runtime/wang_ldi/draw_splats.h"
 #include "runtime/wang_ldi/fast_warp.h"
 #include "runtime/wang_ldi/image_store.h"
+#include "runtime/wang_ldi/plant_raster.h"
 #include "runtime/wang_ldi/planted_field.h"
 #include "runtime/wang_ldi/rings.h"
 #include "runtime/wang_ldi/settings.h"
@@ -57,10 +58,12 @@ struct FrameCounts {
     stream::Counts stream;
     uint32_t latency_frames = 0;  // so many frames ago the picture's camera was given
     uint32_t threads = 1;
-    bool is_warped_by_card = false;   // of warp then only `samples`, of all that is drawn, and images_missing are counted
-    double list_ms = 0, warp_ms = 0;  // warp_ms: beside other work, of one that is pipelined; of the card until it has its orders
-    double planting_error_px = 0;     // of what is planted: planting_error_px, and of geometry what its levels are off
-    double predicted_error_px = 0;    // of terrain and planting, the greater
+    bool are_plants_by_processor = false;  // as geometry
+    bool is_warped_by_card = false;        // of warp then only `samples`, of all that is drawn, and images_missing are counted
+    double list_ms = 0, plants_ms = 0;     // plants_ms: of geometry that the processor draws, beside other work as warp_ms
+    double warp_ms = 0;                    // beside other work, of one that is pipelined; of the card until it has its orders
+    double planting_error_px = 0;          // of what is planted: planting_error_px, and of geometry what its levels are off
+    double predicted_error_px = 0;         // of terrain and planting, the greater
 };
 
 // Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
@@ -96,8 +99,8 @@ class FrameDrawer {
         std::optional<Field> field;
         FieldList list;
         terrain::Cut cut;
-        std::vector<PlantPlaces> plants;  // drawn as geometry
-        double images_error_px = 0;       // planting_error_px
+        std::vector<PlantList> plants;  // drawn as geometry
+        double images_error_px = 0;     // planting_error_px
         Warped picture;
         FrameCounts counts;
     };
@@ -109,6 +112,7 @@ class FrameDrawer {
     void look_ahead(Slot& slot, double dt_s);
     void warp(Slot& slot);
     bool is_warped_by_card() const;
+    bool are_plants_by_processor() const;
     void splat(Slot& slot);
     const StoredImage* image_at(uint64_t index) const;
     void wait();
@@ -124,6 +128,7 @@ class FrameDrawer {
     FarImages far_;
     RingImages rings_;
     FastWarp fast_;
+    PlantRaster raster_;
     FieldList ahead_;
     std::optional<view::Camera> before_;  // the camera of the frame before
     std::vector<Error> faults_;

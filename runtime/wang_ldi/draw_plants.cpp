@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "runtime/discrete/draw_shaders.h"
+#include "runtime/gl/masked_levels.h"
 #include "runtime/wang_ldi/baked_light.h"
 #include "runtime/wang_ldi/canopy.h"
 
@@ -58,11 +59,11 @@ void main() {
 }
 )";
 
-void set_light(const gl::Program& program, const discrete::Chain& chain, const Canopy& canopy, const glm::dvec3& to_sun) {
-    BakedLight light;
-    glm::vec3 towards(to_sun);
+void set_light(const gl::Program& program, const discrete::Chain& chain, const PlantLight& of) {
+    const BakedLight& light = of.light;
+    const Canopy& canopy = of.canopy;
     program.use();
-    glUniform3fv(program.at("to_sun"), 1, glm::value_ptr(towards));
+    glUniform3fv(program.at("to_sun"), 1, glm::value_ptr(of.to_sun));
     glUniform3fv(program.at("sun"), 1, glm::value_ptr(light.sun));
     glUniform3fv(program.at("sky"), 1, glm::value_ptr(light.sky));
     glUniform3fv(program.at("ground"), 1, glm::value_ptr(light.ground));
@@ -70,6 +71,18 @@ void set_light(const gl::Program& program, const discrete::Chain& chain, const C
     glUniform1f(program.at("foot_m"), float(chain.origin_m.z));
     glUniform1f(program.at("canopy_top_m"), float(std::max(canopy.top_m, 1e-6)));
     glUniform2fv(program.at("open"), GLsizei(kCanopySteps), glm::value_ptr(canopy.open[0]));
+}
+
+// A surface's picture as OpenGL has it; its colour alone where it cannot be read.
+Skin skin_of(const caveclod::Surface& surface) {
+    if (surface.texture_bytes.empty()) return plain_skin(surface);
+    Result<ImageRgba8> picture = decode_png(surface.texture, surface.texture_bytes);
+    if (!picture) return plain_skin(surface);
+    Skin skin;
+    skin.add_level(picture->width, picture->height, picture->pixels, surface);
+    for (const ImageRgba8& smaller : gl::masked_levels(*picture, surface.is_alpha_masked ? surface.alpha_cutoff : 0))
+        skin.add_level(smaller.width, smaller.height, smaller.pixels, surface);
+    return skin;
 }
 
 }  // namespace
@@ -85,19 +98,19 @@ std::string plant_look_text() {
 Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun) {
     Plants made;
     bool is_lit = to_sun != glm::dvec3(0);
-    Canopy canopy;
-    if (is_lit) canopy = canopy_of(planting, chains, to_sun);
+    made.light_.is_lit = is_lit, made.light_.to_sun = glm::vec3(to_sun);
+    if (is_lit) made.light_.canopy = canopy_of(planting, chains, to_sun);
     for (const discrete::Chain& chain : chains) {
         Result<discrete::Drawing> drawing = discrete::Drawing::make(chain);
         if (!drawing) return tl::unexpected(drawing.error());
         auto model = std::make_unique<Model>();
-        model->form = form_of(chain);
+        made.forms_.push_back(form_of(chain));
         model->drawing = std::move(*drawing);
         for (const char* define : {kNotFading, kFading}) {
             std::string main = std::string(discrete::shaders::kDoor) + kLeave + (is_lit ? kSunlitMain : kUnlitMain);
             Result<gl::Program> program = model->drawing.program("plants", define, main);
             if (!program) return tl::unexpected(program.error());
-            if (is_lit) set_light(*program, chain, canopy, to_sun);
+            if (is_lit) set_light(*program, chain, made.light_);
             model->programs.push_back(std::move(*program));
         }
         made.models_.push_back(std::move(model));
@@ -105,36 +118,50 @@ Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Plant
     return made;
 }
 
-void Plants::draw_model(Model& model, bool is_fading, const PlantPlaces& places, const view::Camera& camera, double error_px,
-                        const std::optional<view::Part>& part, PlantCounts& counts) const {
-    ListedPlants listed = plants_listed(model.form, places, camera, error_px);
-    const discrete::FrameList& frame = listed.frame;
-    counts.error_px = std::max(counts.error_px, listed.error_px);
-    counts.plant_count += frame.in_view_count, counts.triangle_count += frame.triangle_count;
-    if (frame.items.empty()) return;
-    discrete::DrawOptions options;
-    options.part = part;
-    discrete::DrawList list =
-        discrete::draw_list(model.drawing.layout(), model.drawing.chain(), frame, places.placements, camera, 0);
-    counts.uploaded_bytes += model.buffers.fill(list);
-    model.drawing.draw_calls(model.programs[is_fading], model.buffers, list, list.whole_calls, options);
-    counts.draw_call_count += list.whole_calls.size();
-}
-
-PlantCounts Plants::draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantPlaces> by_model,
-                         double error_px, const std::optional<view::Part>& part) {
+PlantCounts counts_of(std::span<const PlantList> lists) {
     PlantCounts counts;
-    target.bind();
-    for (size_t m = 0; m < models_.size(); ++m) {
-        PlantPlaces whole, fading;
-        for (size_t p = 0; p < by_model[m].placements.size(); ++p) {
-            PlantPlaces& of = by_model[m].shares[p] < 1 ? fading : whole;
-            of.placements.push_back(by_model[m].placements[p]), of.shares.push_back(by_model[m].shares[p]);
-        }
-        draw_model(*models_[m], false, whole, camera, error_px, part, counts);
-        draw_model(*models_[m], true, fading, camera, error_px, part, counts);
+    for (const PlantList& list : lists) {
+        counts.error_px = std::max(counts.error_px, list.listed.error_px);
+        counts.plant_count += list.listed.frame.in_view_count, counts.triangle_count += list.listed.frame.triangle_count;
     }
     return counts;
+}
+
+std::vector<PlantList> Plants::lists(const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px) const {
+    return plant_lists(forms_, by_model, camera, error_px);
+}
+
+void Plants::draw_list(const PlantList& list, const view::Camera& camera, const discrete::DrawOptions& options,
+                       PlantCounts& counts) {
+    Model& model = *models_[list.model];
+    discrete::DrawList drawn =
+        discrete::draw_list(model.drawing.layout(), model.drawing.chain(), list.listed.frame, list.places.placements, camera, 0);
+    counts.uploaded_bytes += model.buffers.fill(drawn);
+    model.drawing.draw_calls(model.programs[list.is_fading], model.buffers, drawn, drawn.whole_calls, options);
+    counts.draw_call_count += drawn.whole_calls.size();
+}
+
+PlantCounts Plants::draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantList> lists,
+                         const std::optional<view::Part>& part) {
+    PlantCounts counts = counts_of(lists);
+    target.bind();
+    discrete::DrawOptions options;
+    options.part = part;
+    for (const PlantList& list : lists) draw_list(list, camera, options, counts);
+    return counts;
+}
+
+std::span<const PlantShape> Plants::shapes() {
+    bool can_be =
+        std::all_of(models_.begin(), models_.end(), [](const auto& model) { return can_be_shaped(model->drawing.chain()); });
+    if (!can_be || !shapes_.empty()) return shapes_;
+    for (const auto& model : models_) {
+        const discrete::Chain& chain = model->drawing.chain();
+        std::vector<Skin> skins;
+        for (const caveclod::Surface& surface : chain.surfaces) skins.push_back(skin_of(surface));
+        shapes_.push_back(shape_of(chain, std::move(skins)));
+    }
+    return shapes_;
 }
 
 uint64_t Plants::bytes() const {

@@ -13,6 +13,8 @@
 #include "runtime/discrete/draw.h"
 #include "runtime/gl/target.h"
 #include "runtime/wang_ldi/plant_levels.h"
+#include "runtime/wang_ldi/plant_light.h"
+#include "runtime/wang_ldi/plant_shapes.h"
 #include "runtime/wang_ldi/plants.h"
 
 namespace overlook::wang_ldi {
@@ -23,6 +25,8 @@ struct PlantCounts {
     uint64_t draw_call_count = 0, uploaded_bytes = 0;
     double error_px = 0;  // nothing of them is displaced by more in the picture: proven of each level, against the chain's source
 };
+// But for draw calls and bytes.
+PlantCounts counts_of(std::span<const PlantList> lists);
 
 // All that says what a plant looks like beside its chain: what pictures that are kept depend on.
 std::string plant_look_text();
@@ -35,22 +39,28 @@ class Plants {
     // discrete::Drawing::make.
     static Result<Plants> make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun);
 
-    // Draws over what the target holds, by depth; does not resolve. error_px: of the target's pixels; 0: the finest levels. part:
-    // of the camera's picture, that the target shows; the whole of it if not said.
-    PlantCounts draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px,
+    // error_px: of the pixels of the camera's picture; 0: the finest levels.
+    std::vector<PlantList> lists(const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px) const;
+    // Draws over what the target holds, by depth; does not resolve. part: of the camera's picture, that the target shows; the
+    // whole of it if not said.
+    PlantCounts draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantList> lists,
                      const std::optional<view::Part>& part = std::nullopt);
+    // For a PlantRaster, made when first asked for: one a model; none if one of them cannot be shaped.
+    std::span<const PlantShape> shapes();
+    const PlantLight& light() const { return light_; }
     uint64_t bytes() const;  // on the card
 
   private:
     struct Model {
-        PlantForm form;
         discrete::Drawing drawing;
         std::vector<gl::Program> programs;  // of plants that are whole, and that fade
         discrete::ListBuffers buffers;
     };
-    void draw_model(Model& model, bool is_fading, const PlantPlaces& places, const view::Camera& camera, double error_px,
-                    const std::optional<view::Part>& part, PlantCounts& counts) const;
+    void draw_list(const PlantList& list, const view::Camera& camera, const discrete::DrawOptions& options, PlantCounts& counts);
 
+    PlantLight light_;
+    std::vector<PlantForm> forms_;    // of each model
+    std::vector<PlantShape> shapes_;  // of each model, once they are wanted
     std::vector<std::unique_ptr<Model>> models_;
 };
 

@@ -46,6 +46,13 @@ void FastColumns<hiding>::stand_on(const Plane& plane) {
 }
 
 template <Hiding hiding>
+bool FastColumns<hiding>::may_show(uint32_t row, const Span& columns) const {
+    const uint32_t* first = first_of_row(row);
+    if (first[columns.from] == first[columns.to]) return false;
+    return is_inside || may_be_seen(row, columns, frame_.corner + frame_.middle_m(row) * frame_.north);
+}
+
+template <Hiding hiding>
 void FastColumns<hiding>::draw_row(uint32_t row, const Span& columns, const uint32_t* shown) {
     size_t pixel = size_t(row) * side_px;
     uint32_t begin = ldi_.first[pixel + columns.from], end = ldi_.first[pixel + columns.to];

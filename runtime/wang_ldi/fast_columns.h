@@ -31,6 +31,8 @@ class FastColumns final : public Columns {
     void draw(uint32_t column, uint32_t row) override { draw_row(row, {column, column + 1}, nullptr); }
     // shown: as ProjectSamples.
     void draw_row(uint32_t row, const Span& columns, const uint32_t* shown);
+    // False only if none of a row's samples can be in the picture.
+    bool may_show(uint32_t row, const Span& columns) const;
     const uint32_t* first_of_row(uint32_t row) const { return ldi_.first.data() + size_t(row) * side_px; }
 
     bool is_inside = false;  // the picture holds all of it, so that rows are not asked about

@@ -105,4 +105,21 @@ ListedPlants plants_listed(const PlantForm& form, const PlantPlaces& places, con
     return listed;
 }
 
+std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::span<const PlantPlaces> by_model,
+                                   const view::Camera& camera, double error_px) {
+    std::vector<PlantList> lists;
+    for (uint32_t model = 0; model < forms.size(); ++model) {
+        PlantList whole{model, false, {}, {}}, fading{model, true, {}, {}};
+        for (size_t p = 0; p < by_model[model].placements.size(); ++p) {
+            PlantPlaces& of = by_model[model].shares[p] < 1 ? fading.places : whole.places;
+            of.placements.push_back(by_model[model].placements[p]), of.shares.push_back(by_model[model].shares[p]);
+        }
+        for (PlantList* list : {&whole, &fading}) {
+            list->listed = plants_listed(forms[model], list->places, camera, error_px);
+            if (!list->listed.frame.items.empty()) lists.push_back(std::move(*list));
+        }
+    }
+    return lists;
+}
+
 }  // namespace overlook::wang_ldi

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "runtime/discrete/director.h"
+#include "runtime/view/camera.h"
 #include "runtime/wang_ldi/plants.h"
 
 namespace overlook::wang_ldi {
@@ -24,5 +26,16 @@ struct ListedPlants {
 };
 // Those in the camera's picture, each at the coarsest level that is displaced by at most error_px, as a bound; 0: the finest.
 ListedPlants plants_listed(const PlantForm& form, const PlantPlaces& places, const view::Camera& camera, double error_px);
+
+// What of a model is drawn for a camera: those that are whole, or those that give way to something else.
+struct PlantList {
+    uint32_t model = 0;
+    bool is_fading = false;
+    PlantPlaces places;
+    ListedPlants listed;
+};
+// Of all models, two each, in their order; lists of nothing are left out.
+std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::span<const PlantPlaces> by_model,
+                                   const view::Camera& camera, double error_px);
 
 }  // namespace overlook::wang_ldi

@@ -18,13 +18,14 @@ constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kSlopeSplats{"slope-splats", 0, 1, 1, true, true, true}, kFar{"far", 0, 1, 1, true, true, true},
     kDepth{"depth", 0, 1, 1, true, true, true}, kCuts{"cuts", 0, 1, 1, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 15> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 16> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
                                               SettingKind{"geometry", 0, 1, 1, true, true, true},
                                               SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
                                               SettingKind{"warper", 0, 2, 0, true},
+                                              SettingKind{"geometry-by", 0, 2, 0, true},
                                               SettingKind{"exact", 0, 1, 0, true, true, true},
                                               SettingKind{"fill", 0, 1, 1, true, true, true},
                                               kSlopeSplats,
@@ -63,6 +64,8 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.geometry_m = value;
     } else if (name == "warper") {
         options.warper = Warper(int(value));
+    } else if (name == "geometry-by") {
+        options.geometry_by = Warper(int(value));
     } else if (name == "exact") {
         options.is_exact = value != 0;
     } else if (name == "fill") {

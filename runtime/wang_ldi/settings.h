@@ -34,8 +34,12 @@ struct FrameOptions {
     bool is_by_depth = true;    // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
     bool cuts_tiles = true;     // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
     Warper warper = Warper::by_renderer;  // of own, unless it is exact
-    bool is_pipelined = false;            // the warp of the next frame overlaps drawing this one, which is shown a frame late
-    bool shows_rings = false;             // levels and directions by colours (the paper's figure 7)
+    // Who draws triangles of plants; by the renderer: the processor's own hand where that is the renderer and pictures have one
+    // sample a pixel. Only beside what the processor warps by depth.
+    Warper geometry_by = Warper::by_renderer;
+    uint32_t samples = 1;       // a pixel of what is drawn into
+    bool is_pipelined = false;  // the warp of the next frame overlaps drawing this one, which is shown a frame late
+    bool shows_rings = false;   // levels and directions by colours (the paper's figure 7)
 
     bool operator==(const FrameOptions&) const = default;
 };

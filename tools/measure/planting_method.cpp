@@ -105,6 +105,7 @@ wang_ldi::FrameOptions planting_options(const MethodSpec& spec) {
     wang_ldi::FrameOptions options = wang_ldi::defaults_of(variant_of(spec));
     for (const auto& [name, value] : spec.settings)
         if (name != kMemoryMib.name && name != kSamples.name) wang_ldi::set(options, name, value);
+    options.samples = uint32_t(setting(spec, std::string(kSamples.name)));
     return options;
 }
 

@@ -1,0 +1,267 @@
+#include "runtime/wang_ldi/plant_pen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::wang_ldi {
+namespace {
+
+// Of a triangle that is cut: as Eye::seen, and what changes evenly along it.
+struct CutCorner {
+    glm::vec3 seen{0};
+    std::array<float, 2> uv{};
+    Four colour{};
+};
+// Its corners, and up to five more.
+struct Polygon {
+    std::array<CutCorner, 8> corners;
+    int count = 0;
+};
+
+// From a corner that is seen to one that is not, so that both triangles of an edge are cut at the same place.
+CutCorner between(const CutCorner& in, const CutCorner& out, float in_side, float out_side) {
+    float share = in_side / (in_side - out_side);
+    CutCorner made;
+    made.seen = in.seen + share * (out.seen - in.seen);
+    for (size_t k = 0; k < 2; ++k) made.uv[k] = in.uv[k] + share * (out.uv[k] - in.uv[k]);
+    made.colour = in.colour + share * (out.colour - in.colour);
+    return made;
+}
+
+template <class Side>
+Polygon cut(const Polygon& from, const Side& side) {
+    Polygon made;
+    for (int k = 0; k < from.count; ++k) {
+        const CutCorner &one = from.corners[size_t(k)], &next = from.corners[size_t((k + 1) % from.count)];
+        float here = side(one.seen), there = side(next.seen);
+        if (here >= 0) made.corners[size_t(made.count++)] = one;
+        if (here >= 0 && there < 0) made.corners[size_t(made.count++)] = between(one, next, here, there);
+        if (here < 0 && there >= 0) made.corners[size_t(made.count++)] = between(next, one, there, here);
+    }
+    return made;
+}
+
+inline Four four(const glm::vec3& v, float last) {
+    return Four{v.x, v.y, v.z, last};
+}
+
+}  // namespace
+
+void PlantPen::stand(const discrete::Placement& placement) {
+    cosine_ = float(placement.cosine), sine_ = float(placement.sine), scale_ = float(placement.scale);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 own(0);
+        own[axis] = 1;
+        turn_[axis] = eye_.seen(placement.turned(own));
+    }
+    foot_ = eye_.seen(placement.translation_m - eye_.position_m);
+    glm::mat3 rows = glm::transpose(turn_);  // right, up, forward of its own axes
+    glm::vec2 middle = eye_.middle_px;
+    constexpr float kMore_px = 1;
+    auto side = [&](int axis, float sign, float px) {
+        return Side{sign * rows[axis] + px * rows[2], sign * foot_[axis] + px * foot_.z};
+    };
+    float far_m = glm::length(foot_) * 1e-5f;  // what rounding may be off
+    sides_ = {side(0, 1, middle.x - float(left_) + kMore_px), side(0, -1, float(right_) - middle.x + kMore_px),
+              side(1, -1, middle.y + kMore_px), side(1, 1, middle.y + kMore_px), Side{rows[2], foot_.z - eye_.near_m}};
+    for (Side& one : sides_) one.offset += far_m;
+}
+
+void PlantPen::draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, float share) {
+    level_ = &shape.levels[level];
+    fill_.begin(*canvas_, left_, right_, share);
+    stand(placement);
+    if (!may_be_seen(level_->all) || is_hidden(level_->all)) return;
+    for (const ShapeBunch& bunch : level_->bunches)
+        if (may_be_seen(bunch) && !is_hidden(bunch)) draw_bunch(shape.skins[bunch.skin], bunch);
+}
+
+bool PlantPen::may_be_seen(const ShapeBunch& bunch) const {
+    for (const Side& side : sides_)
+        if (glm::dot(side.along, bunch.middle_m) + glm::dot(glm::abs(side.along), bunch.half_m) + side.offset < 0) return false;
+    return true;
+}
+
+// By what is drawn already, as boxes. All of it may be seen.
+bool PlantPen::is_hidden(const ShapeBunch& bunch) const {
+    constexpr float kLess = 1 - 1e-4f, kMost_px = 1e6f;
+    glm::vec3 middle = turn_ * bunch.middle_m + foot_, half(0);
+    for (int axis = 0; axis < 3; ++axis) half += glm::abs(turn_[axis]) * bunch.half_m[axis];
+    float nearest_m = (middle.z - half.z) * kLess, farthest_m = middle.z + half.z;
+    if (nearest_m < eye_.near_m) return false;
+    auto greatest = [&](float across) { return across / (across > 0 ? nearest_m : farthest_m); };
+    auto pixel = [&](float at_px) { return int(std::floor(std::clamp(at_px, -kMost_px, kMost_px))); };
+    glm::vec2 at = eye_.middle_px;
+    PixelBox box = fill_.columns();
+    box.left = std::max(box.left, pixel(at.x - greatest(half.x - middle.x)) - 1);
+    box.right = std::min(box.right, pixel(at.x + greatest(half.x + middle.x)) + 2);
+    box.top = std::max(box.top, pixel(at.y - greatest(half.y + middle.y)) - 1);
+    box.bottom = std::min(box.bottom, pixel(at.y + greatest(half.y - middle.y)) + 2);
+    return !fill_.is_open(box, nearest_m);
+}
+
+void PlantPen::draw_bunch(const Skin& skin, const ShapeBunch& bunch) {
+    place(bunch);
+    for (uint32_t i = bunch.first_index; i < bunch.first_index + bunch.index_count; i += 3) {
+        const uint16_t* corners = level_->indices.data() + i;
+        uint8_t a = behind_[corners[0]], b = behind_[corners[1]], c = behind_[corners[2]];
+        if (a & b & c) continue;
+        if ((a | b | c) & (kNear | kFar))
+            draw_cut(skin, i);
+        else
+            draw_triangle(skin, i);
+    }
+}
+
+// All its vertices.
+void PlantPen::place(const ShapeBunch& bunch) {
+    first_vertex_ = bunch.first_vertex;
+    size_t count = bunch.vertex_count;
+    const float *x_m = level_->x_m.data() + first_vertex_, *y_m = level_->y_m.data() + first_vertex_,
+                *z_m = level_->z_m.data() + first_vertex_;
+    glm::mat3 turn = turn_;
+    glm::vec3 foot = foot_;
+    glm::vec2 middle = eye_.middle_px, size = eye_.middle_px * 2.0f;
+    float near_m = eye_.near_m;
+    for (size_t v = 0; v < count; ++v) {
+        float right = turn[0].x * x_m[v] + turn[1].x * y_m[v] + turn[2].x * z_m[v] + foot.x;
+        float up = turn[0].y * x_m[v] + turn[1].y * y_m[v] + turn[2].y * z_m[v] + foot.y;
+        float depth = turn[0].z * x_m[v] + turn[1].z * y_m[v] + turn[2].z * z_m[v] + foot.z;
+        bool is_near = !(depth >= near_m);
+        nearness_[v] = 1 / (is_near ? 1.0f : depth);
+        right *= nearness_[v], up *= nearness_[v];
+        bool is_far = !(std::abs(right) <= kFarthest_px) | !(std::abs(up) <= kFarthest_px) | is_near;
+        float x = middle.x + (is_far ? 0.0f : right), y = middle.y - (is_far ? 0.0f : up);
+        float fx = x * kCornerSteps + 0.5f, fy = y * kCornerSteps + 0.5f;
+        auto ix = int32_t(fx), iy = int32_t(fy);
+        x_[v] = ix - (float(ix) > fx), y_[v] = iy - (float(iy) > fy);
+        unsigned sides =
+            unsigned(x < 0) * kLeft + unsigned(x > size.x) * kRight + unsigned(y < 0) * kAbove + unsigned(y > size.y) * kBelow;
+        behind_[v] = uint8_t(is_near ? unsigned(kNear) : is_far ? unsigned(kFar) : sides);
+    }
+    std::fill_n(is_lit_.begin(), count, uint8_t(0));
+}
+
+void PlantPen::draw_triangle(const Skin& skin, uint32_t index) {
+    const uint16_t* v = level_->indices.data() + index;
+    PixelBox box = fill_.box_of(x_[v[0]], y_[v[0]], x_[v[1]], y_[v[1]], x_[v[2]], y_[v[2]]);
+    if (box.is_empty()) return;
+    Filled triangle;
+    for (size_t k = 0; k < 3; ++k) {
+        const auto& uv = level_->uvs[first_vertex_ + v[k]];
+        triangle.corners[k] = Corner{x_[v[k]], y_[v[k]], nearness_[v[k]], uv[0], uv[1]};
+    }
+    triangle.area = area_of(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
+    if (triangle.area == 0) return;
+    bool sees_front = triangle.area < 0;  // downwards turns the other way
+    if (sees_front) std::swap(triangle.corners[1], triangle.corners[2]), triangle.area = -triangle.area;
+    fill_.draw(skin, triangle, box, [&](Filled& filled) {
+        int second = sees_front ? 2 : 1;
+        filled.corners[0].colour = colour(skin, index, 0, sees_front);
+        filled.corners[1].colour = colour(skin, index, second, sees_front);
+        filled.corners[2].colour = colour(skin, index, 3 - second, sees_front);
+    });
+}
+
+// One that reaches behind the eye, or far beyond the picture.
+void PlantPen::draw_cut(const Skin& skin, uint32_t index) {
+    const uint16_t* v = level_->indices.data() + index;
+    Polygon polygon;
+    polygon.count = 3;
+    for (size_t k = 0; k < 3; ++k) polygon.corners[k] = CutCorner{turn_ * own_m(v[k]) + foot_, level_->uvs[first_vertex_ + v[k]]};
+    auto& at = polygon.corners;
+    bool sees_front = glm::dot(at[0].seen, glm::cross(at[1].seen, at[2].seen)) > 0;
+    for (int k = 0; k < 3; ++k) at[size_t(k)].colour = colour(skin, index, k, sees_front);
+    float near_m = eye_.near_m;
+    polygon = cut(polygon, [&](const glm::vec3& p) { return p.z - near_m; });
+    polygon = cut(polygon, [](const glm::vec3& p) { return kFarthest_px * p.z - p.x; });
+    polygon = cut(polygon, [](const glm::vec3& p) { return kFarthest_px * p.z + p.x; });
+    polygon = cut(polygon, [](const glm::vec3& p) { return kFarthest_px * p.z - p.y; });
+    polygon = cut(polygon, [](const glm::vec3& p) { return kFarthest_px * p.z + p.y; });
+    auto corner = [&](int k) {
+        const CutCorner& from = polygon.corners[size_t(k)];
+        Corner made = corner_at(from.seen, from.uv);
+        made.colour = from.colour;
+        return made;
+    };
+    for (int k = 2; k < polygon.count; ++k) {
+        Filled triangle{{corner(0), corner(k - 1), corner(k)}, 0};
+        auto& [a, b, c] = triangle.corners;
+        triangle.area = area_of(a, b, c);
+        if (triangle.area == 0) continue;
+        if (triangle.area < 0) std::swap(b, c), triangle.area = -triangle.area;
+        PixelBox box = fill_.box_of(a.x, a.y, b.x, b.y, c.x, c.y);
+        if (!box.is_empty()) fill_.draw(skin, triangle, box, [](Filled&) {});
+    }
+}
+
+Corner PlantPen::corner_at(const glm::vec3& seen, const std::array<float, 2>& uv) const {
+    Corner made;
+    made.nearness = 1 / seen.z, made.u = uv[0], made.v = uv[1];
+    made.x = int32_t(std::floor((eye_.middle_px.x + seen.x * made.nearness) * kCornerSteps + 0.5f));
+    made.y = int32_t(std::floor((eye_.middle_px.y - seen.y * made.nearness) * kCornerSteps + 0.5f));
+    return made;
+}
+
+glm::vec3 PlantPen::own_m(uint32_t vertex) const {
+    size_t v = first_vertex_ + vertex;
+    return {level_->x_m[v], level_->y_m[v], level_->z_m[v]};
+}
+
+glm::vec3 PlantPen::stood(const glm::vec3& own) const {
+    return {cosine_ * own.x - sine_ * own.y, sine_ * own.x + cosine_ * own.y, own.z};
+}
+
+// Points to where its corners are counter-clockwise from.
+glm::vec3 PlantPen::face(uint32_t index) const {
+    const uint16_t* v = level_->indices.data() + index;
+    glm::vec3 first_m = own_m(v[0]), normal = glm::cross(own_m(v[1]) - first_m, own_m(v[2]) - first_m);
+    float length = glm::length(normal);
+    return length > 0 ? stood(normal / length) : glm::vec3(0, 0, 1);
+}
+
+// What a vertex sends on the side of a normal, tinted.
+Four PlantPen::sent(uint32_t vertex, const glm::vec3& normal) const {
+    const auto& tint = level_->tints[first_vertex_ + vertex];
+    Four tinted{tint[0], tint[1], tint[2], tint[3]};
+    if (!light_.is_lit) return tinted;
+    constexpr float kLast = kCanopySteps - 1;
+    float height_m = scale_ * level_->z_m[first_vertex_ + vertex], top_m = float(std::max(light_.canopy.top_m, 1e-6));
+    float place = std::clamp(height_m / top_m, 0.0f, 1.0f) * kLast;
+    auto below = size_t(place);
+    glm::vec2 open = glm::mix(light_.canopy.open[below], light_.canopy.open[std::min<size_t>(below + 1, kCanopySteps - 1)],
+                              place - float(below));
+    const BakedLight& of = light_.light;
+    glm::vec3 light = (of.sky * (0.5f + 0.5f * normal.z) + of.ground * (0.5f - 0.5f * normal.z)) * open.y;
+    light += of.sun * (std::max(0.0f, glm::dot(normal, light_.to_sun)) * open.x);
+    return tinted * four(light, 1);
+}
+
+const PlantPen::Lit& PlantPen::lit(uint32_t vertex) {
+    Lit& made = lit_[vertex];
+    if (is_lit_[vertex]) return made;
+    is_lit_[vertex] = 1;
+    const auto& n = level_->normals[first_vertex_ + vertex];
+    glm::vec3 normal = stood({n[0], n[1], n[2]});
+    made.front = sent(vertex, normal), made.back = sent(vertex, -normal);
+    return made;
+}
+
+// What a triangle's corner sends to the eye, which sees the side from which it is counter-clockwise, or the other.
+Four PlantPen::colour(const Skin& skin, uint32_t index, int corner, bool sees_front) {
+    uint32_t vertex = level_->indices[index + uint32_t(corner)];
+    Four seen{}, unseen{};
+    if (level_->normals.empty()) {
+        glm::vec3 normal = sees_front ? face(index) : -face(index);
+        seen = sent(vertex, normal), unseen = sent(vertex, -normal);
+    } else {
+        const Lit& light = lit(vertex);
+        bool is_own = bool(level_->sides[index / 3] >> corner & 1) == sees_front;
+        seen = is_own ? light.front : light.back, unseen = is_own ? light.back : light.front;
+    }
+    if (!skin.is_two_sided || !light_.is_lit) return seen;
+    float through = light_.light.transmission;
+    return seen + unseen * Four{through, through, through, 0};
+}
+
+}  // namespace overlook::wang_ldi
