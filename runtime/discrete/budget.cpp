@@ -18,15 +18,19 @@ void BudgetKeeper::set_triangles(double triangles) {
 }
 
 double BudgetKeeper::times(std::span<const Demand> demands) {
+    sum_count_ = 0;
     if (triangles_ <= 0) return times_;
     auto at = [&](double times) {
+        ++sum_count_;
         double sum = 0;
         for (const Demand& demand : demands) sum += demand.triangles(times);
         return sum;
     };
     double here = at(times_);
     if (here <= triangles_ && (here >= kRestFrom * triangles_ || times_ == 1)) return times_;
-    double aim = std::max(kAim * triangles_, at(kMostTimes));
+    double fewest = at(kMostTimes);
+    if (here > triangles_ && here <= fewest) return times_;
+    double aim = std::max(kAim * triangles_, fewest);
     double low = 0, high = std::log(kMostTimes);
     if (at(1) <= aim) high = 0;
     for (int i = 0; i < kHalvings && low < high; ++i) {

@@ -52,10 +52,14 @@ glm::dvec3 Director::way_past(uint32_t instance, const glm::dvec3& way_m) const 
     return way_m - (placements_[instance].at(facts_.middle_m) - placed_before_[instance].at(facts_.middle_m));
 }
 
+bool Director::knows_cuts() const {
+    return options_.variant == Variant::fsi && options_.remedies.knows_cuts;
+}
+
 // From so far apart it is another picture of the thing, and the level in use may be far too coarse.
 bool Director::begins_anew(uint32_t instance, const glm::dvec3& eye_m, const glm::dvec3& way_m) const {
     if (!states_[instance].is_known) return true;
-    if (options_.variant != Variant::fsi || !options_.remedies.knows_cuts) return false;
+    if (!knows_cuts()) return false;
     const Placement& placement = placements_[instance];
     double distance_m = glm::length(placement.at(facts_.middle_m) - eye_m);
     return glm::length(way_past(instance, way_m)) > kCutShare * std::max(distance_m, facts_.radius_m * placement.scale);
@@ -106,9 +110,8 @@ bool Director::advance(uint32_t instance, State& state, const Placement& placeme
         state.is_known = true;
         return false;
     }
-    bool knows_cuts = options_.variant == Variant::fsi && options_.remedies.knows_cuts;
     uint32_t wanted = is_anew ? selector.wanted(placement) : selector.wanted(placement, before.to);
-    if (!fades(options_.variant) || !is_in_view || is_anew || (knows_cuts && !was_in_view)) {
+    if (!fades(options_.variant) || !is_in_view || is_anew || (knows_cuts() && !was_in_view)) {
         state.transition = {wanted, wanted, 0};
         partly_.erase(instance);
         return wanted != before.to;

@@ -117,6 +117,7 @@ class Director {
     view::Camera camera_later(Foresight& foresight, const view::Camera& camera, double dt_s) const;
     glm::dvec3 way_to(const view::Camera& camera) const;
     glm::dvec3 way_past(uint32_t instance, const glm::dvec3& way_m) const;
+    bool knows_cuts() const;
     // Whether its level is to be chosen as if it had none: never looked at, or the eye came from elsewhere.
     bool begins_anew(uint32_t instance, const glm::dvec3& eye_m, const glm::dvec3& way_m) const;
     void suit_grain(State& state, const Placement& placement, const Selector& selector) const;

@@ -290,6 +290,7 @@ TEST(BudgetKeeper, OfABudgetThatCannotBeKeptTakesTheFewestThereAreAndComesBack) 
             for (int frame = 0; frame < 60; ++frame) show.frame(passing(0));
             EXPECT_EQ(show.drawn(), fewest);
             EXPECT_LT(show.times, 4096);  // no coarser than it takes
+            EXPECT_LE(show.keeper.sum_count(), 2) << "what cannot be kept is not searched for again";
         }
         show.keeper.set_triangles(0.5 * free);
         show.frame(passing(0));
