@@ -26,8 +26,9 @@ inline uint16_t code_of_gap(int gap, int steps) {
     return uint16_t(gap >= steps ? 2 * (gap - steps) : 2 * (steps - gap) - 1);
 }
 inline int gap_of_code(uint16_t code, int steps) {
-    if (steps < 0 || steps > kMostTold || code > 2 * steps) return code;
-    return code % 2 == 0 ? steps + code / 2 : steps - (code + 1) / 2;
+    int told = steps > kMostTold ? -1 : 2 * steps, turn = -(code & 1);  // without a branch: reading waits for this
+    int gap = steps + (((code + 1) / 2 ^ turn) - turn);
+    return code > told ? code : gap;
 }
 
 // Samples of a pixel: [begin, end).

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "formats/steady_math.h"
+
 namespace overlook::view {
 namespace {
 
@@ -37,16 +39,16 @@ std::array<glm::dvec3, 4> sides_of(const Camera& camera) {
 }
 
 Axes axes_of(const Camera& camera) {
-    double heading = radians(camera.heading_deg), pitch = radians(camera.pitch_deg);
+    steady::SinCos heading = steady::sin_cos(radians(camera.heading_deg)), pitch = steady::sin_cos(radians(camera.pitch_deg));
     Axes axes;
-    axes.right = {std::cos(heading), -std::sin(heading), 0};
-    axes.forward = {std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch), std::sin(pitch)};
+    axes.right = {heading.cos, -heading.sin, 0};
+    axes.forward = {heading.sin * pitch.cos, heading.cos * pitch.cos, pitch.sin};
     axes.up = glm::cross(axes.right, axes.forward);
     return axes;
 }
 
 double focal_px(const Camera& camera) {
-    return camera.height_px / (2 * std::tan(radians(camera.fov_y_deg) / 2));
+    return camera.height_px / (2 * steady::tan(radians(camera.fov_y_deg) / 2));
 }
 
 double corner_secant(const Camera& camera) {

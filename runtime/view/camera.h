@@ -25,7 +25,7 @@ struct Camera {
     double near_m = 1;
 };
 
-// Right, up and forward unit vectors.
+// Right, up and forward unit vectors; the same bits on every processor, as focal_px().
 struct Axes {
     glm::dvec3 right, up, forward;
 };

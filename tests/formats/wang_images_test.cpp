@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "formats/compression.h"
+#include "formats/wang_ldi_columns.h"
 #include "formats/wang_ldi_grouped.h"
 #include "tests/corrupt/wang_images_fixtures.h"
 #include "tests/formats/scratch_folder.h"
@@ -120,6 +121,53 @@ TEST(LayeredImages, ComeBackGroupedWhateverTheirHeights) {
         ASSERT_TRUE(bytes) << bytes.error().message;
         EXPECT_TRUE(read_back(set, 0, *bytes) == ldi) << gap;
     }
+}
+
+// An image of 2 x 2 pixels, their columns of up to 40 samples, which stand within `reach` steps.
+Ldi of_four_columns(uint32_t seed, uint32_t reach) {
+    auto next = [&] { return (seed = seed * 1664525 + 1013904223) >> 8; };
+    Ldi ldi;
+    ldi.side_px = 2, ldi.first = {0};
+    for (int p = 0; p < 4; ++p) {
+        uint32_t height = next() % (reach / 2);
+        for (uint32_t left = next() % 41; left > 0 && height < reach; --left, height += 1 + next() % (1 + reach / 20))
+            ldi.heights.push_back(uint16_t(height)), ldi.colours.push_back(uint8_t(next() % 256));
+        ldi.first.push_back(ldi.sample_count());
+    }
+    return ldi;
+}
+
+// Eight heights at a time as one by one, of columns longer than that and of heights far apart.
+TEST(WindowsBeside, SayWhatOneByOneSay) {
+    using namespace groups;
+    size_t told = 0, far = 0, none = 0;
+    for (uint32_t seed = 0; seed < 3000; ++seed) {
+        uint32_t reach = seed % 3 == 0 ? 60 : seed % 3 == 1 ? 3000 : 65535;
+        Ldi ldi = of_four_columns(seed, reach);
+        Beside beside(ldi, 3);
+        NextAbove next(ldi, beside);
+        NearestColour nearest(ldi, beside);
+        std::vector<uint16_t> heights = ldi.heights;
+        heights.resize(heights.size() + kLanes, uint16_t(seed));
+        WindowsBeside windows(heights.data(), beside);
+        for (uint32_t s = ldi.first[3]; s < ldi.first[4]; ++s) {
+            int distance = 0, steps = 0, colour = nearest.of(s, true);
+            uint32_t found = windows.nearest(ldi.heights[s], distance);
+            if (distance == WindowsBeside::kFar) {
+                ++far;
+            } else {
+                ++told;
+                ASSERT_LT(found, ldi.first[3]);
+                EXPECT_EQ(int(ldi.colours[found]), colour) << seed << " " << s;
+                EXPECT_EQ(std::abs(ldi.heights[found] - ldi.heights[s]), distance) << seed << " " << s;
+            }
+            none += (steps = next.steps(ldi.heights[s])) < 0;
+            EXPECT_EQ(windows.steps(ldi.heights[s]), steps) << seed << " " << s;
+        }
+    }
+    EXPECT_GT(told, 10000u);
+    EXPECT_GT(far, 1000u);
+    EXPECT_GT(none, 1000u);
 }
 
 // Columns that go on from pixel to pixel, as surfaces do, take fewer bytes than unpredicted.

@@ -10,6 +10,7 @@
 #include "tools/baked/info_discrete.h"
 #include "tools/baked/info_ground.h"
 #include "tools/baked/info_images.h"
+#include "tools/baked/info_scene.h"
 #include "tools/baked/verbs.h"
 
 namespace overlook::baked {
@@ -108,9 +109,42 @@ void print_mesh(const ordered_json& m) {
     fmt::print("size: {:.1f} bits a triangle\n", m["bits_per_triangle"].get<double>());
 }
 
-void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain,
-                const std::optional<wang_ldi::PlantedTiles>& ground, const std::optional<wang_ldi::ImageReader>& images,
-                const std::optional<wang_ldi::TextureSet>& textures) {
+// What a file of Wang tiles has; nothing where it is of another kind.
+struct Planted {
+    std::optional<wang_ldi::PlantedTiles> ground;
+    std::optional<wang_ldi::ImageReader> images;
+    std::optional<wang_ldi::TextureSet> textures;
+    std::optional<wang_ldi::Scene> scene;
+};
+// Adds what it says of itself to `json`.
+Result<Planted> read_planted(const container::Reader& file, ordered_json& json) {
+    Planted planted;
+    if (file.kind() != wang_ldi::kKind) return planted;
+    auto ground = wang_ldi::read(file);
+    if (!ground) return tl::unexpected(ground.error());
+    json["ground"] = ordered_json::parse(ground_json(*ground));
+    planted.ground = std::move(*ground);
+    if (file.find(container::tag("WLDI"))) {
+        auto opened = wang_ldi::ImageReader::open(file);
+        if (!opened) return tl::unexpected(opened.error());
+        json["images"] = ordered_json::parse(images_json(*opened));
+        auto far = wang_ldi::has_textures(file) ? wang_ldi::read_textures(file, opened->set()) : wang_ldi::TextureSet();
+        if (!far) return tl::unexpected(far.error());
+        planted.images = std::move(*opened);
+        if (far->texture_count() > 0)
+            json["textures"] = ordered_json::parse(textures_json(*far)), planted.textures = std::move(*far);
+    }
+    if (wang_ldi::has_scene(file)) {
+        auto scene = wang_ldi::read_scene(file, uint32_t(planted.ground->set.tiles.size()));
+        if (!scene) return tl::unexpected(scene.error());
+        json["scene"] = ordered_json::parse(scene_json(file, *scene));
+        planted.scene = std::move(*scene);
+    }
+    return planted;
+}
+
+void print_text(const ordered_json& json, const std::optional<discrete::Chain>& chain, const container::Reader& file,
+                const Planted& planted) {
     fmt::print("{}: {}, {} bytes, format {}.{}\n", json["file"].get<std::string>(), json["kind"].get<std::string>(),
                json["bytes"].get<uint64_t>(), container::kMajor, container::kMinor);
     for (const ordered_json& section : json["sections"])
@@ -137,9 +171,10 @@ void print_text(const ordered_json& json, const std::optional<discrete::Chain>& 
     }
     if (json.contains("mesh")) print_mesh(json["mesh"]);
     if (chain) print_chain(*chain);
-    if (ground) print_ground(*ground);
-    if (images) print_images(*images);
-    if (textures) print_textures(*textures);
+    if (planted.ground) print_ground(*planted.ground);
+    if (planted.images) print_images(*planted.images);
+    if (planted.textures) print_textures(*planted.textures);
+    if (planted.scene) print_scene(file, *planted.scene);
     const ordered_json& p = json["provenance"];
     fmt::print("baked by: {} {}", p["program"].get<std::string>(), p["version"].get<std::string>());
     for (const auto& [name, value] : p["options"].items()) fmt::print(" --{} {}", name, value.get<std::string>());
@@ -188,34 +223,19 @@ int info(const InfoArgs& args, const command::Common& common) {
         json["chain"] = ordered_json::parse(chain_json(*read));
         if (!common.json) chain = std::move(*read);
     }
-    std::optional<wang_ldi::PlantedTiles> ground;
-    std::optional<wang_ldi::ImageReader> images;
-    std::optional<wang_ldi::TextureSet> textures;
-    if (file->kind() == wang_ldi::kKind) {
-        auto read = wang_ldi::read(*file);
-        if (!read) return command::fail("baked info", read.error());
-        json["ground"] = ordered_json::parse(ground_json(*read));
-        ground = std::move(*read);
-        if (file->find(container::tag("WLDI"))) {
-            auto opened = wang_ldi::ImageReader::open(*file);
-            if (!opened) return command::fail("baked info", opened.error());
-            json["images"] = ordered_json::parse(images_json(*opened));
-            images = std::move(*opened);
-            auto far = wang_ldi::has_textures(*file) ? wang_ldi::read_textures(*file, images->set()) : wang_ldi::TextureSet();
-            if (!far) return command::fail("baked info", far.error());
-            if (far->texture_count() > 0) json["textures"] = ordered_json::parse(textures_json(*far)), textures = std::move(*far);
-        }
-    }
+    auto planted = read_planted(*file, json);
+    if (!planted) return command::fail("baked info", planted.error());
     if (!args.sheet.empty()) {
-        if (!ground) return command::fail("baked info", no_sheet(args.file));
-        auto written = write_sheet(args.file, *ground, images ? &*images : nullptr, textures ? &*textures : nullptr, args.sheet);
+        if (!planted->ground) return command::fail("baked info", no_sheet(args.file));
+        auto written = write_sheet(args.file, *planted->ground, planted->images ? &*planted->images : nullptr,
+                                   planted->textures ? &*planted->textures : nullptr, args.sheet);
         if (!written) return command::fail("baked info", written.error());
     }
     json["provenance"] = provenance_json(*provenance);
     if (common.json)
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else
-        print_text(json, chain, ground, images, textures);
+        print_text(json, chain, *file, *planted);
     return int(Exit::done);
 }
 

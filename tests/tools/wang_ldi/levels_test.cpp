@@ -37,7 +37,7 @@ TEST(Levels, BeginWhereAPixelIsAsWideAsTheErrorAsked) {
                 double pixel_m = 4.0 / level.side_px, nearest_m = nearest_of_tile_m(*set, double(level.nearest_m));
                 EXPECT_LE(pixel_m * 400 / nearest_m, error_px * 1.0001);
                 EXPECT_GT(pixel_m * 400 / nearest_m, error_px * 0.8 * (1 - 1.0 / level.side_px));
-                EXPECT_LE(double(level.height_step_m), 1.0001 * std::max(pixel_m / 4, 4e-5));
+                EXPECT_LE(double(level.height_step_m), 1.0001 * std::max(pixel_m / 2, 4e-5));
                 EXPECT_GE(set->low_m + 65535 * double(level.height_step_m), high_m);
             }
         }

@@ -19,7 +19,9 @@ struct LevelOptions {
     double level_ratio = 1.5;  // a level's pixels are so much wider than the next finer one's; above 1, up to 4
     // A tile's rim may turn by so many pixels between the middle of a wedge and its edge, fade and all, at the nearest distance.
     double direction_px = 170;
-    double steps_per_pixel = 4;  // of height in a pixel's width, where 16 bits suffice
+    // Of height in a pixel's width, where 16 bits suffice. Of sunflowers 4 take a sixth more bytes at the same E (300 views: p99
+    // 0.807 both, mean 0.4216 for 0.4212).
+    double steps_per_pixel = 2;
 };
 
 // The least distance from an eye of the cell to anything in a tile whose middle is `distance_m` away on the ground.

@@ -6,6 +6,7 @@
 #include "runtime/wang_ldi/random.h"
 #include "tools/bake/wang_ldi/held_out.h"
 #include "tools/bake/wang_ldi/texel_error.h"
+#include "tools/bake/wang_ldi/texture_shape.h"
 #include "tools/bake/wang_ldi/texture_walk.h"
 #include "tools/bake/wang_ldi/textures_opacity.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr uint64_t kEyeStream = 51, kHitStream = 53;
 constexpr uint32_t kLightRaysShare = 16;
-constexpr size_t kMostLines = 1 << 15;
+constexpr size_t kMostLines = 1 << 18;
 constexpr uint32_t kLeastRaysPerEye = 256;
 constexpr double kHitsOfCoarser = 8;
 
@@ -46,10 +47,10 @@ class TextureSampler {
     void add_hit(const TraceStage& stage, const rays::Ray& ray, const rays::Hit& hit, const glm::dvec3& at);
     void sum_up();
     std::vector<double> height_variances() const;
-    void encode(DirectionalTexture& texture) const;
+    DirectionalTexture encoded(std::span<const double> variances, const BoxShape& shape) const;
     void fill_unseen(DirectionalTexture& texture) const;
     void add_line(const rays::Ray& ray, const rays::Hit& hit);
-    void set_opacity(DirectionalTexture& texture) const;
+    std::vector<double> shares_shown() const;
 
     const Models& models_;
     std::span<const TraceStage> stages_;
@@ -58,7 +59,9 @@ class TextureSampler {
     Light light_;
     TextureOptions options_;
     std::vector<Sum> sums_;    // of all pictures' texels
-    std::vector<Line> lines_;  // the first kMostLines that reach the tile
+    std::vector<Line> lines_;  // every line_step_-th that reaches the tile, at most kMostLines
+    uint64_t line_step_ = 1;
+    LinesByDistance ends_;  // all that do, and how many end in it
     std::vector<rays::Hit> found_;
     Eye eye_;
     HeldOut held_out_;
@@ -77,6 +80,7 @@ TextureSampler::TextureSampler(const Models& models, std::span<const TraceStage>
       light_(light),
       options_(options),
       sums_(texture_texels(set.side_px)),
+      ends_(wedge_),
       met_(size_t(set.side_px) * set.side_px),
       errors_(met_.size()),
       rays_per_eye_(
@@ -119,8 +123,11 @@ void TextureSampler::see(const TraceStage& stage) {
 void TextureSampler::add_line(const rays::Ray& ray, const rays::Hit& hit) {
     glm::dvec2 over = over_tile(glm::dvec3(ray.from_m), glm::dvec3(ray.along), set_.tile_m);
     if (over.x >= over.y || (hit.copy != rays::kNone && double(hit.distance) < over.x)) return;
-    ++reaching_;
-    if (lines_.size() < kMostLines) lines_.push_back({ray.from_m, ray.along});
+    ++reaching_, ends_.add(ray.from_m, hit.copy != rays::kNone && double(hit.distance) < over.y ? 1 : 0);
+    if (reaching_ % line_step_ == 0) lines_.push_back({ray.from_m, ray.along});
+    if (lines_.size() < kMostLines) return;
+    for (size_t i = 0; i < kMostLines / 2; ++i) lines_[i] = lines_[2 * i + 1];
+    lines_.resize(kMostLines / 2), line_step_ *= 2;
 }
 
 bool TextureSampler::is_enough() const {
@@ -160,9 +167,9 @@ std::vector<double> TextureSampler::height_variances() const {
     return variances;
 }
 
-void TextureSampler::encode(DirectionalTexture& texture) const {
+DirectionalTexture TextureSampler::encoded(std::span<const double> variances, const BoxShape& shape) const {
+    DirectionalTexture texture;
     double step_m = (set_.high_m - set_.low_m) / 255;
-    std::vector<double> variances = height_variances();
     auto code = [](double value, double least) { return uint8_t(std::clamp(std::round(value), least, 255.0)); };
     for (size_t t = 0; t < sums_.size(); ++t) {
         const Sum& sum = sums_[t];
@@ -171,10 +178,12 @@ void TextureSampler::encode(DirectionalTexture& texture) const {
         if (sum.hits == 0) continue;
         auto hits = double(sum.hits);
         for (int c = 0; c < 3; ++c) texture.colours.back()[size_t(c)] = srgb_from_linear(float(sum.colour[c] / hits));
-        texture.heights.back() = {code(sum.height_m / hits / step_m, 0), code(std::sqrt(3 * variances[t]) / step_m, 1)};
+        double deviation_m = std::sqrt(variances[t]), middle_m = sum.height_m / hits + shape.raised * deviation_m;
+        texture.heights.back() = {code(middle_m / step_m, 0), code(shape.half_height * deviation_m / step_m, 1)};
         for (int axis = 0; axis < 3 && set_.has_normals; ++axis)
             texture.normals.back()[size_t(axis)] = int8_t(std::lround(127 * std::clamp(sum.normal[axis] / hits, -1.0, 1.0)));
     }
+    return texture;
 }
 
 // From the coarsest down.
@@ -192,20 +201,23 @@ void TextureSampler::fill_unseen(DirectionalTexture& texture) const {
     }
 }
 
-void TextureSampler::set_opacity(DirectionalTexture& texture) const {
+std::vector<double> TextureSampler::shares_shown() const {
     std::vector<double> shown(sums_.size());
     for (size_t t = 0; t < sums_.size(); ++t) shown[t] = double(sums_[t].hits) / double(reaching_);
-    choose_opacity(set_, lines_, shown, texture);
+    return shown;
 }
 
 TextureSampled TextureSampler::run() {
     while (!is_enough()) see(stages_[eyes_ % stages_.size()]);
+    sum_up();
+    std::vector<double> variances = height_variances(), shown = shares_shown();
+    auto with = [&](const BoxShape& shape) { return encoded(variances, shape); };
     TextureSampled made;
     uint64_t hits = held_out_.hits();
+    made.texture = with(hits > 0 ? chosen_shape(set_, wedge_, lines_, shown, ends_, with) : BoxShape());
     made.texture.unseen_share = float(held_out_.unseen_share());
     made.texture.standard_error = float(std::min(errors_.standard_error(), 1.0));
-    sum_up(), encode(made.texture);
-    if (hits > 0) set_opacity(made.texture);
+    if (hits > 0) choose_opacity(set_, lines_, shown, made.texture);
     fill_unseen(made.texture);
     made.rays = rays_, made.hits = hits, made.eyes = eyes_;
     return made;

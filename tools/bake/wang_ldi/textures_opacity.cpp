@@ -63,8 +63,8 @@ void Picture::run() {
 }  // namespace
 
 void choose_opacity(const TextureSet& set, std::span<const Line> lines, std::span<const double> shown,
-                    DirectionalTexture& texture) {
-    for (uint32_t level = texture_levels(set.side_px); level-- > 0;) {
+                    DirectionalTexture& texture, uint32_t pictures) {
+    for (uint32_t level = std::min(texture_levels(set.side_px), pictures); level-- > 0;) {
         Picture picture(set, lines, shown, texture, level);
         picture.run();
         size_t at = texture_level_at(set.side_px, level), coarse = texture_level_at(set.side_px, level + 1);

@@ -15,8 +15,8 @@ struct Line {
 
 // Sets the opacities of all texels so that, of such lines, boxes drawn back to front show each texel with its `shown` share
 // ([texels], how many lines end over its square). Found by repetition, from the front of the tile to its back: what a box needs
-// depends on what those before it let through. Same arguments, same opacities.
+// depends on what those before it let through. pictures: only of so many, from the finest. Same arguments, same opacities.
 void choose_opacity(const TextureSet& set, std::span<const Line> lines, std::span<const double> shown,
-                    DirectionalTexture& texture);
+                    DirectionalTexture& texture, uint32_t pictures = 32);
 
 }  // namespace overlook::wang_ldi

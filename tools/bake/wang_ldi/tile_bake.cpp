@@ -10,6 +10,7 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr uint64_t kSampleStream = 42, kLightStream = 43, kJudgeStream = 44, kTextureStream = 45;
+constexpr size_t kSamplesTimedAtOnce = 4096;  // whose shadow rays are kept
 
 }  // namespace
 
@@ -18,11 +19,24 @@ uint32_t tiles_tried(const ImageBake& bake, const ImageSet& set) {
 }
 
 std::vector<glm::vec3> TileBake::colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
-                                            uint64_t seed, std::vector<std::vector<rays::Ray>>* asked) const {
-    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, middle_eye_m(wedge), own_light(), seed, asked);
+                                            uint64_t seed) const {
+    if (!set_.has_normals) return lit_samples(models_, stages, sampled.samples, middle_eye_m(wedge), own_light(), seed);
     std::vector<glm::vec3> colours;
     for (const Sample& sample : sampled.samples) colours.push_back(sample.albedo);
     return colours;
+}
+
+void TileBake::time_shadow_rays(std::span<const TraceStage> stages, std::span<const Sample> samples, const Wedge& wedge,
+                                uint64_t seed, Rate& rate) const {
+    std::vector<std::vector<rays::Ray>> asked(stages.size());
+    while (!samples.empty()) {
+        auto now = samples.first(std::min(samples.size(), kSamplesTimedAtOnce));
+        samples = samples.subspan(now.size());
+        for (auto& of_stage : asked) of_stage.clear();
+        lit_samples(models_, stages, now, middle_eye_m(wedge), own_light(), seed, &asked);
+        for (const auto& of_stage : asked) rate.shadow_rays += of_stage.size();
+        rate.bare_shadow_s += bare_shadow_s(stages, asked);
+    }
 }
 
 Sampled TileBake::sampled_and_lit(std::span<const TraceStage> stages, const Wedge& wedge, const SampleOptions& options,
@@ -30,15 +44,11 @@ Sampled TileBake::sampled_and_lit(std::span<const TraceStage> stages, const Wedg
     double begin = thread_s();
     Sampled all = sampled(models_, stages, wedge, options);
     double lit = thread_s();
-    colours = colours_of(stages, all, wedge, light_seed, nullptr);
+    colours = colours_of(stages, all, wedge, light_seed);
     rate.lit_s += thread_s() - lit, rate.sampled_s += lit - begin, rate.rays += all.rays;
     if (!bake_.is_timed) return all;
     rate.bare_s += bare_s(stages, wedge, options, all.eyes);
-    if (set_.has_normals) return all;  // lit later
-    std::vector<std::vector<rays::Ray>> asked(stages.size());
-    colours_of(stages, all, wedge, light_seed, &asked);
-    for (const auto& of_stage : asked) rate.shadow_rays += of_stage.size();
-    rate.bare_shadow_s += bare_shadow_s(stages, asked);
+    if (!set_.has_normals) time_shadow_rays(stages, all.samples, wedge, light_seed, rate);
     return all;
 }
 

@@ -25,7 +25,10 @@ class TileBake {
         return light;
     }
     std::vector<glm::vec3> colours_of(std::span<const TraceStage> stages, const Sampled& sampled, const Wedge& wedge,
-                                      uint64_t seed, std::vector<std::vector<rays::Ray>>* asked) const;
+                                      uint64_t seed) const;
+    // Adds the shadow rays of colours_of, shot again for nothing else.
+    void time_shadow_rays(std::span<const TraceStage> stages, std::span<const Sample> samples, const Wedge& wedge, uint64_t seed,
+                          Rate& rate) const;
     // The samples of an image and their colours.
     Sampled sampled_and_lit(std::span<const TraceStage> stages, const Wedge& wedge, const SampleOptions& options,
                             uint64_t light_seed, std::vector<glm::vec3>& colours, Rate& rate) const;
