@@ -6,8 +6,8 @@
 namespace overlook::view {
 namespace {
 
-constexpr double kAim = 0.975, kRestFrom = 0.95;  // shares of the budget
-constexpr double kMostFallAFrame = 0.03;          // of the error's logarithm
+constexpr double kAim = 0.98, kRestFrom = 0.96;  // shares of the budget
+constexpr double kMostFallAFrame = 0.03;         // of the error's logarithm
 constexpr double kMostError_px = 256;
 constexpr double kLeastExponent = 0.3, kMostExponent = 3;
 constexpr double kLeastTimeShare = 0.85, kTimeAim = 0.925, kMostGrowth = 1.1;  // of a time

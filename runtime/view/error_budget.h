@@ -27,7 +27,7 @@ class MiddleOfThree {
 };
 
 // Cost falls as a power of the error, cost ~ error^-p. Over budget the error goes up at once, to where p, learned from the frames
-// before, puts the cost at 97.5 % of the budget; under 95 % it comes down by at most 3 % a frame; between, it rests.
+// before, puts the cost at 98 % of the budget; under 96 % it comes down by at most 3 % a frame; between, it rests.
 class ErrorController {
   public:
     explicit ErrorController(const ErrorBudget& budget) : budget_(budget), error_px_(budget.least_error_px) {}

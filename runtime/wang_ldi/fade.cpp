@@ -34,8 +34,9 @@ Ladder ladder_of(const ImageSet& set, const LadderOptions& options) {
     double images_from_m = std::max(options.geometry_to_m, 0.0), images_to_m = std::min(options.texture_from_m, options.radius_m);
     uint32_t first = level_for(set, images_from_m * options.coarser);
     double rim_m = set.tile_m * std::sqrt(0.5), keeps_m = images_to_m * (1 - options.fade_share) - rim_m;
+    double in_fading = (1 + options.fade_share) / (1 - options.fade_share);  // the last level gives way as the error shrinks
     for (uint32_t level = first; level < set.levels.size(); ++level) {
-        if (level > first && !(sample_error_m(set, level, 0) * options.samples_from < keeps_m)) break;
+        if (level > first && !(sample_error_m(set, level, 0) * in_fading * options.samples_from < keeps_m)) break;
         wanted.push_back(
             {Stage::ldi, level, level == first ? images_from_m : double(set.levels[level].nearest_m) / options.coarser, 0, 0});
     }

@@ -43,8 +43,8 @@ struct LadderOptions {
     double radius_m = std::numeric_limits<double>::infinity();  // nothing is drawn beyond
     // Of a rung's distance, to both sides; 0..0.5, 0: no fades. Less where two rungs are near each other.
     double fade_share = 0.05;
-    // Levels whose samples' error in metres times this is not less than where images end are left out, but for the first; 0:
-    // none.
+    // Levels whose samples' error in metres times this is not less than where images end, with room for a fade, are left out, but
+    // for the first; 0: none.
     double samples_from = 0;
     double coarser = 1;  // > 0; levels begin so much nearer than the set has them, whose samples are so much wider in the picture
 };

@@ -99,15 +99,16 @@ Chosen Field::chosen(const glm::dvec2& eye_from_middle_m, double eye_above_groun
 }
 
 double Field::farthest_within_m(double error_m, double slope) const {
-    double at_m = 0, within_m = 0;
+    double at_m = 0, within_m = 0, last_to_m = 0;
     for (const Rung& rung : ladder_.rungs) {
         if (rung.stage == Stage::geometry) continue;
         if (rung.stage != Stage::ldi) break;
         double own_m = sample_error_m(*parts_.images, rung.level, slope);
         if (error_m < own_m) return at_m + (rung.fade_from_m - at_m) * std::max(0.0, error_m - within_m) / (own_m - within_m);
-        at_m = rung.fade_from_m, within_m = own_m;
+        at_m = rung.fade_from_m, within_m = own_m, last_to_m = rung.fade_to_m;
     }
-    return INFINITY;
+    if (!(at_m > 0) || error_m >= within_m * last_to_m / at_m) return INFINITY;
+    return at_m + (error_m / within_m - 1) * at_m;
 }
 
 double Field::texels_of(const Rung& rung) const {

@@ -150,7 +150,7 @@ class Field {
     // The number of a tile's own that decides its fades.
     static uint64_t fade_number(int64_t i, int64_t j) { return hash_of(0, 0x6661, i, j); }
     // The farthest that a place may be taken for so that all images shown have samples within error_m of their surfaces on a tile
-    // of so steep a slope, as sample_error_m; infinite if all have. Without such: 0.
+    // of so steep a slope, as sample_error_m; infinite if all have, the coarsest by as much as it fades. Without such: 0.
     double farthest_within_m(double error_m, double slope = 0) const;
     // By how far rungs are chosen: on the ground, and up as far as the eye is above where images are sampled from.
     double distance_m(const glm::dvec2& ground_m, double eye_above_ground_m) const;

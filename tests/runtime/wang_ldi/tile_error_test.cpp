@@ -129,5 +129,27 @@ TEST(TileError, SharesGrowFromNothingAsTheErrorPermits) {
     EXPECT_EQ(field.farthest_within_m(1), INFINITY);
 }
 
+// Nor does any level come at once, the coarsest of all included.
+TEST(TileError, NoLevelComesAtOnceAsTheErrorGrows) {
+    TestField test{Ground::plain()};
+    Field field = test.field(options_of(test, standing(test, {0.3, 0.4}, 30), 1, true));
+    double whole_m = 0;  // from where the coarsest is alone
+    for (const Rung& rung : field.ladder().rungs)
+        if (rung.stage == Stage::ldi && std::isfinite(rung.from_m)) whole_m = rung.fade_to_m;
+    auto place_of = [&](double error_m, double slope) {
+        Mix mix = rungs_at(field.ladder(), std::min(whole_m, field.farthest_within_m(error_m, slope)));
+        return mix.first + double(mix.second_share) / kWhole;
+    };
+    for (double slope : {0.0, 0.3}) {
+        double before = place_of(0, slope);
+        for (double error_m = 1e-4; error_m < 1; error_m *= 1.002) {
+            double now = place_of(error_m, slope);
+            EXPECT_LE(std::abs(now - before), 0.25) << error_m << " m on a slope of " << slope;
+            before = now;
+        }
+        EXPECT_EQ(before, rungs_at(field.ladder(), whole_m).first);
+    }
+}
+
 }  // namespace
 }  // namespace overlook::wang_ldi

@@ -40,6 +40,7 @@ Result<std::vector<Finding>> count_holes(Stage& stage, const std::vector<view::C
         for (double each : values_of(run, figure("hole_px"))) holes += each;
         finding.figures["hole_pixels"] = holes;
         finding.figures["silhouette_p95_px"] = greatest(run, "s_p95_px");
+        finding.figures["silhouette_p95_of_geometry_px"] = greatest(course->runs[run.floor], "s_p95_px");
         finding.frames = uint32_t(cameras.size());
         finding.worst = shown(run.worst_e);
         finding.promised_px = promised_px(run);
@@ -292,8 +293,11 @@ Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene:
         count_holes(stage, cameras_of(stage, flight, pick_of(specs, Pick::spread)), flight.step_s, specs);
     if (!findings) return findings;
     for (Finding& finding : *findings) {
-        finding.sentence = fmt::format("In the worst frame 95 % of the outline stands within {:.2f} px of where it should.",
-                                       finding.figures["silhouette_p95_px"]);
+        finding.sentence = fmt::format(
+            "In the worst frame 95 % of the outline stands within {:.2f} px of where it should; full geometry's, of as many "
+            "samples "
+            "a pixel, within {:.2f} px.",
+            finding.figures["silhouette_p95_px"], finding.figures["silhouette_p95_of_geometry_px"]);
     }
     return findings;
 }

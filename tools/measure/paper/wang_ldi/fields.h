@@ -25,7 +25,8 @@ struct Walk {
     std::vector<view::Camera> cameras;
 };
 
-// Where walks over a land begin: planted for a way ahead, with what rises most before the eye. The same land, the same place.
+// Where walks over a land begin: on level ground, planted for a way ahead and to both sides of it, hills behind that and the sun
+// behind the eye. The same land, the same place.
 class Guide {
   public:
     explicit Guide(const Land& land);
@@ -34,6 +35,9 @@ class Guide {
     view::Camera camera(double ahead_m, double up_m, double turned_deg, double pitch_deg, uint32_t width_px,
                         uint32_t height_px) const;
 
+    // The camera within a tile from there, as high above the ground, where the nearest plant before the eye is farthest away.
+    view::Camera cleared(const view::Camera& camera) const;
+
     // Walking and driving at head height, rising, turning, looking down: `frames` of each, evenly over it.
     std::vector<Walk> walks(uint32_t frames, uint32_t width_px, uint32_t height_px) const;
     // So many frames of the walk at its own step.
@@ -41,7 +45,10 @@ class Guide {
 
   private:
     bool is_planted(const glm::dvec2& at_m) const;
-    double worth(const glm::dvec2& at_m, double heading_deg) const;
+    double planted_share(const glm::dvec2& at_m, double heading_deg) const;
+    double slope_ahead(const glm::dvec2& at_m, double heading_deg) const;
+    double horizon(const glm::dvec2& at_m, double heading_deg) const;
+    double worth(const glm::dvec2& at_m, double heading_deg, double best) const;
 
     const Land& land_;
     glm::dvec2 start_m_{0};
