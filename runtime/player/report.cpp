@@ -50,6 +50,8 @@ void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
     json["pixels_written"] = planting.warp.pixels_written;
     json["list_ms"] = planting.list_ms;
     json["warp_ms"] = planting.warp_ms;
+    json["plants_by_processor"] = planting.are_plants_by_processor;
+    json["plants_ms"] = planting.plants_ms;
     json["warp_threads"] = planting.threads;
     json["warped_by_card"] = planting.is_warped_by_card;
     json["latency_frames"] = planting.latency_frames;

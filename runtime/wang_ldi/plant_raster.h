@@ -10,13 +10,14 @@
 #include <span>
 #include <vector>
 
-#include "runtime/wang_ldi/canvas.h"
 #include "runtime/wang_ldi/plant_levels.h"
 #include "runtime/wang_ldi/plant_light.h"
 #include "runtime/wang_ldi/plant_shapes.h"
 #include "runtime/wang_ldi/warp.h"
 
 namespace overlook::wang_ldi {
+
+class Canvas;
 
 // Keeps a canvas from picture to picture; one for each thread that draws pictures at the same time.
 class PlantRaster {
