@@ -18,6 +18,7 @@ uniform float focal_px;
 uniform vec2 middle_px;
 uniform float near_m;
 uniform float haze_per_m;
+uniform float finer;
 out vec4 colour;
 
 vec3 linear_of(vec3 encoded) {
@@ -26,7 +27,7 @@ vec3 linear_of(vec3 encoded) {
 }
 
 void main() {
-    ivec2 size = textureSize(colours, 0), at = ivec2(gl_FragCoord.xy);
+    ivec2 size = textureSize(colours, 0), at = ivec2(gl_FragCoord.xy * finer);
     at.y = size.y - 1 - at.y;
     vec4 own = texelFetch(colours, at, 0);
     if (own.a == 0.0) discard;
@@ -81,6 +82,7 @@ uint64_t Composite::take(const Warped& picture) {
 
 void Composite::draw(const gl::Target& target, const view::Camera& camera, double haze_per_m) const {
     target.bind();
+    auto finer = float(width_px_) / float(target.width_px());
     glm::mat3 world_from_eye = glm::transpose(glm::mat3(view::rotation(camera)));
     program_.use();
     glUniformMatrix3fv(program_.at("world_from_eye"), 1, GL_FALSE, glm::value_ptr(world_from_eye));
@@ -88,10 +90,16 @@ void Composite::draw(const gl::Target& target, const view::Camera& camera, doubl
     glUniform2f(program_.at("middle_px"), float(camera.width_px) / 2, float(camera.height_px) / 2);
     glUniform1f(program_.at("near_m"), float(camera.near_m));
     glUniform1f(program_.at("haze_per_m"), float(haze_per_m));
+    glUniform1f(program_.at("finer"), finer);
     glBindTextureUnit(0, colours_.id());
     glBindTextureUnit(1, depths_.id());
     glBindVertexArray(nothing_.id());
+    if (finer > 1) {
+        glEnable(GL_SAMPLE_SHADING);
+        glMinSampleShading(1);
+    }
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SAMPLE_SHADING);
     target.resolve();
 }
 

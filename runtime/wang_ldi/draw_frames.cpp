@@ -112,7 +112,9 @@ Result<void> FrameDrawer::decide(const view::Camera& camera, double dt_s, double
     size_t ready = shown_, next = 1 - shown_;
     if (has_next_) ready = 1 - shown_, next = shown_;
     const Warped& done = slots_[ready].picture;
-    bool is_late = options_.is_pipelined && !splats_ && done.width_px == camera.width_px && done.height_px == camera.height_px;
+    view::Camera as_warped = warped_camera(options_, camera);
+    bool fits = done.width_px == as_warped.width_px && done.height_px == as_warped.height_px;
+    bool is_late = options_.is_pipelined && !splats_ && fits;
     if (Result<void> prepared = prepare(camera, dt_s, morph, slots_[next]); !prepared) return prepared;
     before_ = camera;
     if (!is_late) {
@@ -215,7 +217,8 @@ void FrameDrawer::splat(Slot& slot) {
         const StoredImage* image = image_at(index);
         return image == nullptr ? nullptr : &image->prepared;
     };
-    SplatCounts drawn = splats_->draw(slot.camera, *slot.field, slot.list, at, options_.fills_holes, &far_, *composite_);
+    SplatCounts drawn =
+        splats_->draw(warped_camera(options_, slot.camera), *slot.field, slot.list, at, options_.fills_holes, &far_, *composite_);
     slot.counts.warp = {}, slot.counts.warp.samples = drawn.samples, slot.counts.warp.images_missing = drawn.images_missing;
     slot.counts.uploaded_bytes += drawn.uploaded_bytes, slot.counts.is_warped_by_card = true;
     slot.counts.warp_ms = clock.elapsed_ms();
@@ -228,14 +231,15 @@ void FrameDrawer::warp(Slot& slot) {
     }
     Clock clock;
     bool is_paper = options_.variant == Variant::paper;
+    view::Camera camera = warped_camera(options_, slot.camera);
     if (is_paper || options_.is_exact) {
-        slot.picture.clear(slot.camera.width_px, slot.camera.height_px);
+        slot.picture.clear(camera.width_px, camera.height_px);
         ImageAt at = [this](uint64_t index) {
             const StoredImage* image = image_at(index);
             return image == nullptr ? nullptr : &image->ldi;
         };
         Hiding hiding = is_paper || !options_.is_by_depth ? Hiding::by_order : Hiding::by_depth;
-        slot.counts.warp = warp_field(slot.camera, *slot.field, slot.list, at, hiding, slot.picture, &far_);
+        slot.counts.warp = warp_field(camera, *slot.field, slot.list, at, hiding, slot.picture, &far_);
     } else {
         PreparedAt at = [this](uint64_t index) {
             const StoredImage* image = image_at(index);
@@ -244,13 +248,13 @@ void FrameDrawer::warp(Slot& slot) {
         FastOptions fast;
         fast.fills_holes = options_.fills_holes;
         fast.hiding = options_.is_by_depth ? Hiding::by_depth : Hiding::by_order;
-        slot.counts.warp = fast_.warp(slot.camera, *slot.field, slot.list, at, fast, slot.picture, &far_);
+        slot.counts.warp = fast_.warp(camera, *slot.field, slot.list, at, fast, slot.picture, &far_);
         slot.counts.holes_filled = fast_.holes_filled();
     }
     slot.counts.warp_ms = clock.elapsed_ms();
     if (!slot.counts.are_plants_by_processor) return;
     Clock of_plants;
-    raster_.draw(slot.camera, land_.plants->shapes(), land_.plants->light(), slot.plants, slot.picture);
+    raster_.draw(camera, land_.plants->shapes(), land_.plants->light(), slot.plants, slot.picture);
     slot.counts.plants_ms = of_plants.elapsed_ms();
 }
 

@@ -11,14 +11,15 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr FrameOptions kDefaults;
-constexpr double kOfGround = 1.0 / 8;  // of the error, that tiles may stand off their ground
+constexpr uint32_t kWidestFine_px = 8192;  // pictures of more are not warped finer than they are: memory
+constexpr double kOfGround = 1.0 / 8;      // of the error, that tiles may stand off their ground
 constexpr SettingKind kErrorPx{"error-px", 0.001, 10000, kDefaults.error_px};
 constexpr SettingKind kRadiusM{"radius-m", 0, 1e7, kDefaults.radius_m, false, true};
 constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kSlopeSplats{"slope-splats", 0, 1, 1, true, true, true}, kFar{"far", 0, 1, 1, true, true, true},
     kDepth{"depth", 0, 1, 1, true, true, true}, kCuts{"cuts", 0, 1, 1, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 16> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 17> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
@@ -29,6 +30,7 @@ constexpr std::array<SettingKind, 16> kOwn = {kErrorPx,
                                               SettingKind{"exact", 0, 1, 0, true, true, true},
                                               SettingKind{"fill", 0, 1, 1, true, true, true},
                                               kSlopeSplats,
+                                              SettingKind{"splat-samples", 0, 4, kDefaults.splat_samples, true, true},
                                               kFar,
                                               kDepth,
                                               kCuts,
@@ -72,6 +74,8 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.fills_holes = value != 0;
     } else if (name == "slope-splats") {
         options.widens_splats = value != 0;
+    } else if (name == "splat-samples") {
+        options.splat_samples = uint32_t(value);
     } else if (name == "far") {
         options.has_far = value != 0;
     } else if (name == "depth") {
@@ -89,6 +93,14 @@ void set(FrameOptions& options, std::string_view name, double value) {
 double geometry_to_m(const ImageSet& images, const FrameOptions& options) {
     if (options.variant == Variant::paper || !options.has_geometry) return 0;
     return options.geometry_m > 0 ? options.geometry_m : images.cell.nearest_m;
+}
+
+view::Camera warped_camera(const FrameOptions& options, view::Camera camera) {
+    if (options.variant == Variant::paper) return camera;
+    uint32_t by_target = options.samples >= 4 ? 2 : 1, side = options.splat_samples > 0 ? options.splat_samples : by_target;
+    while (side > 1 && std::max(camera.width_px, camera.height_px) * side > kWidestFine_px) --side;
+    camera.width_px *= side, camera.height_px *= side;
+    return camera;
 }
 
 FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, const view::Camera& camera,

@@ -30,9 +30,12 @@ struct FrameOptions {
     bool is_exact = false;      // of own: warped as the paper's are, sample by sample, slowly
     bool fills_holes = true;    // of own, unless it is exact: small ones, as fill_holes
     bool widens_splats = true;  // of own: FieldOptions::widens_splats
-    bool has_far = true;        // of own: textures and colours beyond the images; false: nothing is drawn there
-    bool is_by_depth = true;    // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
-    bool cuts_tiles = true;     // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
+    // Of own: what is warped has so many samples along each side of a pixel, of which a target of several samples a pixel takes
+    // the one at each of them, so that splats cover a part of a pixel; 1..4, 0: 2 where `samples` are 4 or more, else 1.
+    uint32_t splat_samples = 0;
+    bool has_far = true;      // of own: textures and colours beyond the images; false: nothing is drawn there
+    bool is_by_depth = true;  // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
+    bool cuts_tiles = true;   // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
     Warper warper = Warper::by_renderer;  // of own, unless it is exact
     // Who draws triangles of plants; by the renderer: the processor's own hand where that is the renderer and pictures have one
     // sample a pixel. Only beside what the processor warps by depth.
@@ -52,6 +55,10 @@ void set(FrameOptions& options, std::string_view name, double value);
 
 // Up to where all tiles are drawn as geometry; 0: none.
 double geometry_to_m(const ImageSet& images, const FrameOptions& options);
+
+// The camera with as many pixels as are warped for its picture; of large pictures fewer than asked, so that they have at most
+// 8192 a side, or the picture's own.
+view::Camera warped_camera(const FrameOptions& options, view::Camera camera);
 
 // Of a camera's pictures, and textures of so many pixels a side.
 FieldOptions field_options_of(const ImageSet& images, const FrameOptions& options, const view::Camera& camera,

@@ -19,8 +19,8 @@ view::Camera small_camera() {
 }
 
 // Everything is grey and 10 m away.
-gl::Target grey_target() {
-    auto target = gl::Target::make(kSide, kSide, 1);
+gl::Target grey_target(uint32_t samples = 1) {
+    auto target = gl::Target::make(kSide, kSide, samples);
     EXPECT_TRUE(target);
     target->bind();
     const GLfloat grey[] = {0.5f, 0.5f, 0.5f, 1}, depth = 0.1f / 10;
@@ -68,6 +68,32 @@ TEST(Composite, PutsTheAirBeforeWhatIsFar) {
     EXPECT_LT(test::pixel(drawn, 0, 0).blue, 40);
     EXPECT_GT(test::pixel(drawn, 1, 0).blue, 100);
     EXPECT_GT(test::pixel(drawn, 0, 0).red, test::pixel(drawn, 1, 0).red);
+}
+
+TEST(Composite, OfAFinerPictureEachSampleTakesTheOneWhereItLies) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    auto composite = Composite::make();
+    ASSERT_TRUE(composite) << composite.error().message;
+    gl::Target target = grey_target(4);
+    Warped picture;
+    picture.clear(2 * kSide, 2 * kSide);
+    auto put = [&](uint32_t x, uint32_t y, float depth_m) {
+        picture.colours[y * 2 * kSide + x] = 0xff0000ff, picture.depth_m[y * 2 * kSide + x] = depth_m;
+    };
+    put(2, 0, 5), put(5, 1, 5), put(4, 0, 5), put(6, 0, 20), put(7, 1, 5);
+    for (uint32_t quarter = 0; quarter < 4; ++quarter) put(quarter % 2, 2 + quarter / 2, 5);
+    composite->take(picture);
+    composite->draw(target, small_camera(), 0);
+    ImageRgb8 drawn = target.read();
+    auto is_red_share = [&](uint32_t x, uint32_t y, double share) {
+        auto of = [&](double red, double grey) { return uint8_t(share * red + (1 - share) * grey); };
+        return test::is_near(test::pixel(drawn, x, y), {of(255, 128), of(0, 128), of(0, 128)}, 2);
+    };
+    EXPECT_TRUE(is_red_share(0, 0, 0));
+    EXPECT_TRUE(is_red_share(1, 0, 0.25));
+    EXPECT_TRUE(is_red_share(2, 0, 0.5));
+    EXPECT_TRUE(is_red_share(3, 0, 0.25));
+    EXPECT_TRUE(is_red_share(0, 1, 1));
 }
 
 // Mounds on a plain.

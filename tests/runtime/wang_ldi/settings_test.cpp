@@ -34,6 +34,26 @@ FieldList listed(const FrameOptions& options) {
     return list_of(hilly_field().field(field_options(options)), on_hills());
 }
 
+TEST(PlantingSettings, SplatsAreAsFineAsTheTargetUnlessSaid) {
+    auto width_px = [](FrameOptions options, uint32_t samples) {
+        options.samples = samples;
+        return warped_camera(options, on_hills()).width_px / on_hills().width_px;
+    };
+    FrameOptions own = defaults_of(Variant::own);
+    EXPECT_EQ(width_px(own, 1), 1u);
+    EXPECT_EQ(width_px(own, 4), 2u);
+    EXPECT_EQ(width_px(with("splat-samples", 1), 4), 1u);
+    EXPECT_EQ(width_px(with("splat-samples", 3), 1), 3u);
+    EXPECT_EQ(width_px(defaults_of(Variant::paper), 4), 1u);
+    FrameOptions soft = own;
+    soft.samples = 4;
+    EXPECT_EQ(warped_camera(soft, on_hills()).height_px, 2 * on_hills().height_px);
+    view::Camera large = on_hills();
+    large.width_px = 5000;
+    EXPECT_EQ(warped_camera(soft, large).width_px, 5000u);
+    EXPECT_EQ(warped_camera(soft, large).height_px, large.height_px);
+}
+
 TEST(PlantingSettings, OfWiderSamplesBeginLevelsNearer) {
     Field one = hilly_field().field(field_options(with("error-px", 1))),
           two = hilly_field().field(field_options(with("error-px", 2)));
