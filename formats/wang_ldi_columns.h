@@ -5,7 +5,7 @@
 
 namespace overlook::wang_ldi::groups {
 
-constexpr uint32_t kLanes = 8;
+inline constexpr uint32_t kLanes = 8;
 
 // Heights less 32,768, in the order of their column, from below.
 using Lanes = int16_t __attribute__((vector_size(16)));

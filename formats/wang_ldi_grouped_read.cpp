@@ -148,10 +148,11 @@ bool SampleReader::read(size_t pixel) {
             pixel, beside, [&](int below) { return next.steps(below); }, nearest_to);
     }
     WindowsBeside windows(ldi_.heights.data(), beside);
+    NearestColour far(ldi_, beside);  // of heights far off; looks through a column once, as these ascend
     auto nearest_to = [&](uint32_t sample, int below) {
         int height = ldi_.heights[sample], distance = 0;
         uint32_t found = windows.nearest(height, distance);
-        if (distance == WindowsBeside::kFar) return NearestColour(ldi_, beside).of(sample, below == kNone);
+        if (distance == WindowsBeside::kFar) return far.of(sample, below == kNone);
         uint32_t is_below = -uint32_t(height - below < distance);
         return int(ldi_.colours[(found & ~is_below) | ((sample - 1) & is_below)]);
     };

@@ -31,9 +31,8 @@ struct DirectionalTexture {
     // over each other show as much of each as is seen over its square (less where more than 1 were needed). A texel of which
     // nothing is seen has opacity 0, and else what the next coarser one has.
     std::vector<std::array<uint8_t, 4>> colours;
-    // Mean height above low_m of what is seen, and half the height of the box: the square root of 3 times the standard deviation
-    // (an even spread from bottom to top has the same), where few hits tell it after the coarser texel's. In steps of (high_m -
-    // low_m) / 255.
+    // Height of the box's middle above low_m, and half the height of the box, as the baker chose them after what is seen; of the
+    // box that is shown which is between low_m and high_m. In steps of (high_m - low_m) / 255.
     std::vector<std::array<uint8_t, 2>> heights;
     // Mean normal of what is seen, times 127; the shorter, the more normals differ. None unless the set has them.
     std::vector<std::array<int8_t, 3>> normals;

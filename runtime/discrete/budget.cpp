@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kRestFrom = 0.95, kAim = 0.975;  // shares of the budget
 constexpr double kMostTimes = 4096;
+constexpr double kLess = 0.999;  // by more than halvings leave open
 constexpr int kHalvings = 20;
 
 }  // namespace
@@ -29,7 +30,7 @@ double BudgetKeeper::times(std::span<const Demand> demands) {
     double here = at(times_);
     if (here <= triangles_ && (here >= kRestFrom * triangles_ || times_ == 1)) return times_;
     double fewest = at(kMostTimes);
-    if (here > triangles_ && here <= fewest) return times_;
+    if (here > triangles_ && here <= fewest && (times_ == 1 || at(kLess * times_) > fewest)) return times_;
     double aim = std::max(kAim * triangles_, fewest);
     double low = 0, high = std::log(kMostTimes);
     if (at(1) <= aim) high = 0;

@@ -20,10 +20,10 @@ class BudgetKeeper {
 
     // How many times as coarse as asked levels are to be in the next frame, 1 to 4096. demands: of all directors of the picture.
     // Rests while that keeps between 95 and 100 % of the budget, or under it at what was asked; else comes to the least that
-    // takes 97.5 % of it at most, where even the fewest triangles are more, those, and rests while there are no fewer. What is
-    // taken beside, while levels change, is not in it.
+    // takes 97.5 % of it at most, where even the fewest triangles are more, those, and rests while nothing less coarse takes as
+    // few. What is taken beside, while levels change, is not in it.
     double times(std::span<const Demand> demands);
-    // How often the last of these summed up what its demands take: 1 at rest, 2 where the budget cannot be kept, 23 at most.
+    // How often the last of these summed up what its demands take: 1 at rest, 3 where the budget cannot be kept, 24 at most.
     int sum_count() const { return sum_count_; }
 
   private:

@@ -170,6 +170,28 @@ TEST(WindowsBeside, SayWhatOneByOneSay) {
     EXPECT_GT(none, 1000u);
 }
 
+// Each sample's nearest are 2,200 to 2,800 steps away, in the columns beside it, and say which group its colour is in.
+TEST(LayeredImages, ComeBackGroupedWhereNothingIsNear) {
+    ImageSet set = field();
+    set.is_grouped = true, set.has_normals = set.has_splats = false, set.levels = {{32, 1, 0.00006f, 1}};
+    Ldi ldi;
+    ldi.side_px = 32, ldi.first = {0}, ldi.unseen_share = 0.25f;
+    for (int c = 0; c < 256; ++c) ldi.palette.push_back({uint8_t(c), 0, 7});
+    uint32_t seed = 5;
+    auto noise = [&](uint32_t most) { return ((seed = seed * 1664525 + 1013904223) >> 8) % most; };
+    for (uint32_t p = 0; p < 32 * 32; ++p) {
+        for (uint32_t layer = 0; layer < 6; ++layer) {
+            ldi.heights.push_back(uint16_t(5000 * layer + 2500 * ((p + p / 32) % 2) + noise(300)));
+            ldi.colours.push_back(uint8_t(noise(256)));
+        }
+        ldi.first.push_back(ldi.sample_count());
+    }
+    ASSERT_GT(group_counts_of(ldi.sample_count()).colour_classes, 1u);
+    auto bytes = packed(set, 0, ldi);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    EXPECT_TRUE(read_back(set, 0, *bytes) == ldi);
+}
+
 // Columns that go on from pixel to pixel, as surfaces do, take fewer bytes than unpredicted.
 TEST(LayeredImages, OfSurfacesTakeFewerBytesGrouped) {
     ImageSet set = field();

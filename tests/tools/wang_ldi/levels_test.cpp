@@ -38,6 +38,7 @@ TEST(Levels, BeginWhereAPixelIsAsWideAsTheErrorAsked) {
                 EXPECT_LE(pixel_m * 400 / nearest_m, error_px * 1.0001);
                 EXPECT_GT(pixel_m * 400 / nearest_m, error_px * 0.8 * (1 - 1.0 / level.side_px));
                 EXPECT_LE(double(level.height_step_m), 1.0001 * std::max(pixel_m / 2, 4e-5));
+                EXPECT_GE(double(level.height_step_m), 0.9999 * pixel_m / 2);
                 EXPECT_GE(set->low_m + 65535 * double(level.height_step_m), high_m);
             }
         }

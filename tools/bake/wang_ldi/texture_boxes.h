@@ -9,13 +9,13 @@
 
 namespace overlook::wang_ldi {
 
-// A box of a texel: from low to high above the tile's ground.
+// A box of a texel, as far as it is shown: from low to high above the tile's ground.
 struct Box {
     double low_m = 0, high_m = 0;
 };
 inline Box box_of(const TextureSet& set, const DirectionalTexture& texture, size_t texel) {
     double middle_m = set.height_m(texture.heights[texel][0]), half_m = set.half_height_m(texture.heights[texel][1]);
-    return {middle_m - half_m, middle_m + half_m};
+    return {std::max(set.low_m, middle_m - half_m), std::min(set.high_m, middle_m + half_m)};
 }
 
 // Of sight lines, linear; colour times coverage.

@@ -295,8 +295,7 @@ Result<std::vector<Finding>> run_horizon(Stage& stage, const Case&, const scene:
     for (Finding& finding : *findings) {
         finding.sentence = fmt::format(
             "In the worst frame 95 % of the outline stands within {:.2f} px of where it should; full geometry's, of as many "
-            "samples "
-            "a pixel, within {:.2f} px.",
+            "samples a pixel, within {:.2f} px.",
             finding.figures["silhouette_p95_px"], finding.figures["silhouette_p95_of_geometry_px"]);
     }
     return findings;
