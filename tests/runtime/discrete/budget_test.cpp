@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/runtime/discrete/budget_shows.h"
+#include "tests/runtime/discrete/budget_runs.h"
 
 namespace overlook::discrete {
 namespace {
 
 TEST(BudgetKeeper, WithoutABudgetAsksWhatWasAsked) {
-    Show show(Variant::fsi, crowd(8));
+    BudgetRun show(Variant::fsi, crowd(8));
     double before = 0;
     for (int frame = 0; frame < 10; ++frame) {
         show.frame(passing(0));
@@ -35,7 +35,7 @@ TEST(BudgetKeeper, OfMoreThanIsTakenAsksWhatWasAsked) {
     for (Variant variant : kAll) {
         std::vector<Placement> placements = crowd(10);
         double free = free_triangles(variant, placements, passing(0));
-        Show show(variant, placements);
+        BudgetRun show(variant, placements);
         for (double budget : {1.001 * free / 0.975, 10 * free, 1e18, std::numeric_limits<double>::max()}) {
             show.keeper.set_triangles(budget);
             show.frame(passing(0));
@@ -50,7 +50,7 @@ TEST(BudgetKeeper, IsNoCoarserThanItMust) {
     std::vector<Placement> placements = crowd(16);
     double free = free_triangles(Variant::hard, placements, passing(0));
     for (double share : {0.8, 0.4, 0.2, 0.1}) {
-        Show show(Variant::hard, placements);
+        BudgetRun show(Variant::hard, placements);
         Demand demand = show.director.demand(passing(0), kStep_s);
         show.keeper.set_triangles(share * free);
         double times = show.keeper.times(std::span(&demand, 1));
@@ -65,7 +65,7 @@ TEST(BudgetKeeper, ConvergesAtOnceAndThenChangesNothing) {
         SCOPED_TRACE(int(variant));
         std::vector<Placement> placements = crowd(16);
         double free = free_triangles(variant, placements, passing(0));
-        Show show(variant, placements);
+        BudgetRun show(variant, placements);
         for (int frame = 0; frame < 10; ++frame) show.frame(passing(0));
         for (double share : {0.7, 0.35, 0.1, 0.5, 0.9}) {
             show.keeper.set_triangles(share * free);
@@ -91,7 +91,7 @@ TEST(BudgetKeeper, KeepsItOnTheWayPastACrowdWhateverTheStep) {
     std::vector<Placement> placements = crowd(24);
     double free = free_triangles(Variant::fsi, placements, passing(0));
     for (double share : {0.5, 0.6, 0.9, 1.5, 2.0}) {
-        Show show(Variant::fsi, placements);
+        BudgetRun show(Variant::fsi, placements);
         double budget = 0.4 * free;
         show.keeper.set_triangles(budget);
         for (int frame = 0; frame < 40; ++frame) show.frame(passing(frame));
@@ -120,7 +120,7 @@ TEST(BudgetKeeper, DoesNotSwingWithACameraThatTrembles) {
         std::vector<Placement> placements = crowd(16);
         double free = free_triangles(variant, placements, passing(0));
         for (double share = 0.2; share < 1; share += 0.1) {
-            Show show(variant, placements);
+            BudgetRun show(variant, placements);
             show.keeper.set_triangles(share * free);
             uint64_t begun = 0;
             for (int frame = 0; frame < 96; ++frame) {
@@ -138,7 +138,7 @@ TEST(BudgetKeeper, OfABudgetThatCannotBeKeptTakesTheFewestThereAreAndComesBack) 
     std::vector<Placement> placements = crowd(8);
     for (Variant variant : kAll) {
         SCOPED_TRACE(int(variant));
-        Show show(variant, placements);
+        BudgetRun show(variant, placements);
         for (int frame = 0; frame < 10; ++frame) show.frame(passing(0));
         double free = show.settled(), fewest = show.director.demand(passing(0), kStep_s).triangles(4096);
         for (double budget : {0.5 * fewest, 1.0, 1e-300}) {
@@ -166,7 +166,7 @@ TEST(BudgetKeeper, WorksWhateverLevelsAreChosenBy) {
             FrameOptions options = defaults_of(Variant::hard);
             options.select.criterion = criterion;
             options.select.error_px = scale, options.select.size_px = 256 * scale, options.select.distance_m = 100 / scale;
-            Show show(options, placements);
+            BudgetRun show(options, placements);
             show.frame(passing(0));
             double free = show.settled();
             Demand demand = show.director.demand(passing(0), kStep_s);
@@ -185,7 +185,7 @@ TEST(BudgetKeeper, WorksWhateverLevelsAreChosenBy) {
 TEST(BudgetKeeper, SurvivesHostileSettings) {
     FrameOptions options = defaults_of(Variant::fsi);
     options.select.refine_share = 1e-12, options.select.coarsen_share = 1e-12, options.select.error_px = 1e-300;
-    Show show(options, crowd(4));
+    BudgetRun show(options, crowd(4));
     for (double budget : {1.0, 1e300, 500.0}) {
         show.keeper.set_triangles(budget);
         for (int frame = 0; frame < 5; ++frame) show.frame(passing(frame), frame == 2 ? 0 : 1e9);
@@ -194,7 +194,7 @@ TEST(BudgetKeeper, SurvivesHostileSettings) {
     // Nothing in view, and an eye in the midst of a thing.
     show.frame(camera_at({0, -4, 4}, 180));
     EXPECT_EQ(show.settled(), 0);
-    Show inside(Variant::hard, std::vector<Placement>(1));
+    BudgetRun inside(Variant::hard, std::vector<Placement>(1));
     inside.keeper.set_triangles(10);
     inside.frame(camera_at({0, 0, 0}));
     EXPECT_EQ(inside.settled(), inside.foretold);
@@ -206,7 +206,7 @@ TEST(BudgetKeeper, OfLevelsOneByOneEndsWhereItSaid) {
     FrameOptions options = defaults_of(Variant::fsi);
     options.is_one_by_one = true;
     std::vector<Placement> placements = crowd(12);
-    Show show(options, placements);
+    BudgetRun show(options, placements);
     show.frame(passing(0));
     double budget = 0.2 * show.settled();
     show.keeper.set_triangles(budget);
@@ -218,7 +218,7 @@ TEST(BudgetKeeper, OfLevelsOneByOneEndsWhereItSaid) {
     }
     EXPECT_LE(show.drawn(), budget);
     EXPECT_GE(show.drawn(), 0.9 * budget);
-    Show alone(Variant::fsi, placements, made::sphere_chain(16, 1));
+    BudgetRun alone(Variant::fsi, placements, made::sphere_chain(16, 1));
     alone.keeper.set_triangles(1);
     alone.frame(passing(0));
     EXPECT_EQ(alone.settled(), alone.foretold);
@@ -245,14 +245,14 @@ TEST(BudgetKeeper, KeepsABudgetOfLevelsThatAreNotCheaper) {
 
 // Several directors of one picture share the budget at one coarseness.
 TEST(BudgetKeeper, SharesABudgetAmongChains) {
-    Show fine(Variant::hard, crowd(12)), rough(Variant::hard, crowd(12), made::sphere_chain(16, 4));
+    BudgetRun fine(Variant::hard, crowd(12)), rough(Variant::hard, crowd(12), made::sphere_chain(16, 4));
     view::Camera camera = passing(0);
     std::vector<Demand> demands = {fine.director.demand(camera, kStep_s), rough.director.demand(camera, kStep_s)};
     double free = demands[0].triangles(1) + demands[1].triangles(1);
     BudgetKeeper keeper;
     keeper.set_triangles(free / 2);
     double times = keeper.times(demands), sum = 0;
-    for (Show* show : {&fine, &rough}) {
+    for (BudgetRun* show : {&fine, &rough}) {
         show->director.coarsen(times);
         show->director.decide(camera, kStep_s);
         sum += show->settled();

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/runtime/discrete/budget_shows.h"
+#include "tests/runtime/discrete/budget_runs.h"
 
 namespace overlook::discrete {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 TEST(Demand, IsWhatAFrameTakesWhenItsChangesAreOver) {
     for (Variant variant : kAll) {
         SCOPED_TRACE(int(variant));
-        Show show(variant, crowd(12));
+        BudgetRun show(variant, crowd(12));
         double at_first = 0;
         for (int frame = 0; frame < 40; ++frame) {
             if (frame == 10) show.keeper.set_triangles(at_first / 3);
@@ -34,7 +34,7 @@ TEST(Demand, IsWhatAFrameTakesWhenItsChangesAreOver) {
 }
 
 TEST(Demand, ChangesNothing) {
-    Show asked(Variant::fsi, crowd(8)), unasked(Variant::fsi, crowd(8));
+    BudgetRun asked(Variant::fsi, crowd(8)), unasked(Variant::fsi, crowd(8));
     for (int frame = 0; frame < 30; ++frame) {
         for (double dt_s : {kStep_s, 0.0, 1.0}) asked.director.demand(passing(3 * frame + 1), dt_s);
         asked.director.decide(passing(frame), kStep_s);
@@ -45,7 +45,7 @@ TEST(Demand, ChangesNothing) {
 
 TEST(Demand, CountsOfWhatThePicturesSidesCutOnlyWhatIsInIt) {
     // One large thing of many triangles, half of it beside the picture.
-    Show show(Variant::hard, std::vector<Placement>(1), made::sphere_chain(128, 3));
+    BudgetRun show(Variant::hard, std::vector<Placement>(1), made::sphere_chain(128, 3));
     view::Camera camera = camera_at({0, -3, 0}, 25);
     camera.pitch_deg = 0;
     show.frame(camera);
@@ -56,7 +56,7 @@ TEST(Demand, CountsOfWhatThePicturesSidesCutOnlyWhatIsInIt) {
 }
 
 TEST(Demand, NeverGrowsAsLevelsMayBeCoarser) {
-    Show show(Variant::fsi, crowd(10));
+    BudgetRun show(Variant::fsi, crowd(10));
     for (int frame = 0; frame < 20; ++frame) {
         Demand demand = show.director.demand(passing(frame), kStep_s);
         double before = std::numeric_limits<double>::infinity();

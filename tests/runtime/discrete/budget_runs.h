@@ -38,10 +38,10 @@ inline view::Camera passing(int frame) {
 }
 
 // As FrameDrawer does it.
-struct Show {
-    Show(Variant variant, const std::vector<Placement>& placements, Chain chain = made::sphere_chain(64, 6))
-        : Show(defaults_of(variant), placements, std::move(chain)) {}
-    Show(const FrameOptions& options, const std::vector<Placement>& placements, Chain chain = made::sphere_chain(64, 6))
+struct BudgetRun {
+    BudgetRun(Variant variant, const std::vector<Placement>& placements, Chain chain = made::sphere_chain(64, 6))
+        : BudgetRun(defaults_of(variant), placements, std::move(chain)) {}
+    BudgetRun(const FrameOptions& options, const std::vector<Placement>& placements, Chain chain = made::sphere_chain(64, 6))
         : director(facts_of(chain), placements, options) {}
 
     void frame(const view::Camera& camera, double dt_s = kStep_s) {
@@ -60,7 +60,7 @@ struct Show {
 };
 
 inline double free_triangles(Variant variant, const std::vector<Placement>& placements, const view::Camera& camera) {
-    Show show(variant, placements);
+    BudgetRun show(variant, placements);
     show.frame(camera);
     return show.settled();
 }
