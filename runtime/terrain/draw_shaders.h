@@ -92,6 +92,7 @@ void main() {
 )";
 
 inline constexpr char kAir[] = R"(
+uniform float haze_per_m;
 // The sky, and the air before far things, by the sine of the altitude one looks at.
 vec3 low_air_colour(float up) {
     return mix(vec3(0.24, 0.31, 0.39), vec3(0.60, 0.69, 0.78), exp(-12.0 * up * up));  // nadir, horizon
@@ -104,6 +105,14 @@ vec3 air_colour(float up) {
     vec3 low = mix(horizon, middle, 1.0 - exp(-7.0 * up - 20.0 * up * up));
     return mix(low, zenith, smoothstep(0.2, 0.95, up));
 }
+
+// A linear colour at a place relative to the eye.
+vec3 behind_air(vec3 own, vec3 at_m) {
+    float distance_m = length(at_m);
+    vec3 air = low_air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
+    float hazes = distance_m * haze_per_m;
+    return mix(air, own, exp(-hazes * sqrt(hazes)));
+}
 )";
 
 inline constexpr char kTerrainFragment[] = R"(
@@ -114,7 +123,6 @@ in Surface {
 } surface;
 uniform bool has_texture;
 uniform sampler2D colours;
-uniform float haze_per_m;
 uniform vec2 height_range_m;
 uniform vec2 place_per_m;
 out vec4 colour;
@@ -132,13 +140,6 @@ vec3 own_colour(vec3 at_m) {
     vec3 away_m = at_m - surface.relative_m;
     if (!has_texture) return slope_shading(surface.height_m + away_m.z);
     return texture(colours, surface.place + away_m.xy * place_per_m).rgb;
-}
-
-vec3 behind_air(vec3 ground, vec3 at_m) {
-    float distance_m = length(at_m);
-    vec3 air = low_air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
-    float hazes = distance_m * haze_per_m;
-    return mix(air, ground, exp(-hazes * sqrt(hazes)));
 }
 )";
 

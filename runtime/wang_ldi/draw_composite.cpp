@@ -17,7 +17,6 @@ uniform mat3 world_from_eye;
 uniform float focal_px;
 uniform vec2 middle_px;
 uniform float near_m;
-uniform float haze_per_m;
 uniform float finer;
 out vec4 colour;
 
@@ -36,9 +35,7 @@ void main() {
     colour = vec4(own.rgb, 1.0);
     if (haze_per_m == 0.0) return;
     vec3 at_m = world_from_eye * vec3((gl_FragCoord.xy - middle_px) / focal_px, -1.0) * depth_m;
-    float distance_m = length(at_m), hazes = distance_m * haze_per_m;
-    vec3 air = low_air_colour(min(at_m.z / max(distance_m, 1e-6), 0.0) * 0.35);
-    colour.rgb = encoded(mix(air, linear_of(own.rgb), exp(-hazes * sqrt(hazes))));
+    colour.rgb = encoded(behind_air(linear_of(own.rgb), at_m));
 }
 )";
 

@@ -83,6 +83,7 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::make(const PlantedField& plant
 Result<void> FrameDrawer::change(const FrameOptions& options) {
     wait();
     options_ = options;
+    are_plants_by_processor_ = can_draw_plants() && !land_.plants->shapes().empty();
     if (!is_warped_by_card()) splats_.reset();
     if (!is_warped_by_card() || splats_) return {};
     Result<Splats> splats = Splats::make();
@@ -96,11 +97,12 @@ bool FrameDrawer::is_warped_by_card() const {
     return options_.warper == Warper::card || (options_.warper == Warper::by_renderer && !is_software_);
 }
 
-bool FrameDrawer::are_plants_by_processor() const {
-    if (is_warped_by_card() || options_.is_exact || !options_.is_by_depth || land_.plants == nullptr) return false;
-    bool is_asked = options_.geometry_by == Warper::processor;
+// Whether the processor is to draw plants, if they can be shaped.
+bool FrameDrawer::can_draw_plants() const {
+    bool has_plants = options_.variant == Variant::own && options_.has_geometry && land_.plants != nullptr;
+    if (!has_plants || is_warped_by_card() || !options_.is_by_depth) return false;
     bool is_best = options_.geometry_by == Warper::by_renderer && is_software_ && options_.samples <= 1;
-    return (is_asked || is_best) && !land_.plants->shapes().empty();
+    return options_.geometry_by == Warper::processor || is_best;
 }
 
 void FrameDrawer::wait() {
@@ -143,7 +145,7 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     if (Result<void> listed = list(slot, dt_s); !listed) return listed;
     FrameCounts& counts = slot.counts;
     list_plants(slot);
-    counts.plants = counts_of(slot.plants), counts.are_plants_by_processor = are_plants_by_processor();
+    counts.plants = counts_of(slot.plants), counts.are_plants_by_processor = are_plants_by_processor_;
     counts.list_ms = clock.elapsed_ms();
     counts.triangle_count = slot.cut.triangle_count(), counts.void_rim_triangle_count = slot.cut.void_rim_triangle_count;
     counts.terrain_tested_count = slot.cut.tested_count;
@@ -263,7 +265,7 @@ void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& loo
     view::Camera local = moved(slot.camera, -slot.origin_m);
     land_.drawing->draw(target, slot.cut, local, look);
     if (land_.plants != nullptr && !slot.counts.are_plants_by_processor)
-        slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants);
+        slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants, land_.drawing->haze_per_m(look));
     slot.counts.planting_error_px = std::max(slot.images_error_px, slot.counts.plants.error_px);
     slot.counts.predicted_error_px = std::max(slot.cut.predicted_error_px, slot.counts.planting_error_px);
     slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes;

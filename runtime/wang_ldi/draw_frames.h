@@ -77,7 +77,7 @@ class FrameDrawer {
     FrameDrawer& operator=(const FrameDrawer&) = delete;
     ~FrameDrawer();
 
-    // From the next frame on. Images stay. Fails as Splats::make.
+    // From the next frame on. Images stay. What the processor draws plants from is made here, once. Fails as Splats::make.
     Result<void> change(const FrameOptions& options);
     const FrameOptions& options() const { return options_; }
 
@@ -112,7 +112,7 @@ class FrameDrawer {
     void look_ahead(Slot& slot, double dt_s);
     void warp(Slot& slot);
     bool is_warped_by_card() const;
-    bool are_plants_by_processor() const;
+    bool can_draw_plants() const;
     void splat(Slot& slot);
     const StoredImage* image_at(uint64_t index) const;
     void wait();
@@ -125,6 +125,7 @@ class FrameDrawer {
     std::optional<Composite> composite_;
     std::optional<Splats> splats_;  // while the card warps
     bool is_software_ = false;      // the renderer
+    bool are_plants_by_processor_ = false;
     FarImages far_;
     RingImages rings_;
     FastWarp fast_;

@@ -7,6 +7,7 @@
 
 #include "runtime/discrete/draw_shaders.h"
 #include "runtime/gl/masked_levels.h"
+#include "runtime/terrain/draw_shaders.h"
 #include "runtime/wang_ldi/baked_light.h"
 #include "runtime/wang_ldi/canopy.h"
 
@@ -27,7 +28,7 @@ void leave_by_door(Item item) {
 constexpr char kUnlitMain[] = R"(
 void main() {
     leave_by_door(own_item());
-    colour = vec4(encoded(unlit_colour(own_item().is_plain)), 1.0);
+    colour = vec4(encoded(behind_air(unlit_colour(own_item().is_plain), surface.relative_m)), 1.0);
 }
 )";
 
@@ -55,7 +56,7 @@ void main() {
     float facing = dot(normal, to_sun);
     vec3 light = around(normal, shares.y) + sun * (max(0.0, facing) * shares.x);
     if (is_two_sided) light += transmission * (around(-normal, shares.y) + sun * (max(0.0, -facing) * shares.x));
-    colour = vec4(encoded(own * light), 1.0);
+    colour = vec4(encoded(behind_air(own * light, surface.relative_m)), 1.0);
 }
 )";
 
@@ -79,9 +80,17 @@ Skin skin_of(const caveclod::Surface& surface) {
     Result<ImageRgba8> picture = decode_png(surface.texture, surface.texture_bytes);
     if (!picture) return plain_skin(surface);
     Skin skin;
-    skin.add_level(picture->width, picture->height, picture->pixels, surface);
-    for (const ImageRgba8& smaller : gl::masked_levels(*picture, surface.is_alpha_masked ? surface.alpha_cutoff : 0))
-        skin.add_level(smaller.width, smaller.height, smaller.pixels, surface);
+    if (!surface.is_alpha_masked) {
+        skin.add_level(picture->width, picture->height, picture->pixels, surface);
+        skin.add_halves();
+        return skin;
+    }
+    auto add = [&](const ImageRgba8& level) {
+        if (size_t(level.width) * level.height <= Skin::kMostTexels)
+            skin.add_level(level.width, level.height, level.pixels, surface);
+    };
+    add(*picture);
+    for (const ImageRgba8& smaller : gl::masked_levels(*picture, surface.alpha_cutoff)) add(smaller);
     return skin;
 }
 
@@ -90,7 +99,8 @@ Skin skin_of(const caveclod::Surface& surface) {
 std::string plant_look_text() {
     BakedLight light;
     std::string text = std::string(discrete::shaders::kItemInputs) + discrete::shaders::kVertex + discrete::shaders::kItem +
-                       discrete::shaders::kFragment + discrete::shaders::kDoor + kLeave + kUnlitMain + kSunlitMain;
+                       discrete::shaders::kFragment + discrete::shaders::kDoor + terrain::shaders::kAir + kLeave + kUnlitMain +
+                       kSunlitMain;
     for (const glm::vec3& one : {light.sun, light.sky, light.ground}) text += fmt::format("{} {} {} ", one.x, one.y, one.z);
     return text + fmt::format("{} {}", light.transmission, kCanopyForm);
 }
@@ -107,7 +117,8 @@ Result<Plants> Plants::make(std::span<const discrete::Chain> chains, const Plant
         made.forms_.push_back(form_of(chain));
         model->drawing = std::move(*drawing);
         for (const char* define : {kNotFading, kFading}) {
-            std::string main = std::string(discrete::shaders::kDoor) + kLeave + (is_lit ? kSunlitMain : kUnlitMain);
+            std::string main =
+                std::string(discrete::shaders::kDoor) + terrain::shaders::kAir + kLeave + (is_lit ? kSunlitMain : kUnlitMain);
             Result<gl::Program> program = model->drawing.program("plants", define, main);
             if (!program) return tl::unexpected(program.error());
             if (is_lit) set_light(*program, chain, made.light_);
@@ -131,23 +142,26 @@ std::vector<PlantList> Plants::lists(const view::Camera& camera, std::span<const
     return plant_lists(forms_, by_model, camera, error_px);
 }
 
-void Plants::draw_list(const PlantList& list, const view::Camera& camera, const discrete::DrawOptions& options,
+void Plants::draw_list(const PlantList& list, const view::Camera& camera, double haze_per_m, const discrete::DrawOptions& options,
                        PlantCounts& counts) {
     Model& model = *models_[list.model];
     discrete::DrawList drawn =
         discrete::draw_list(model.drawing.layout(), model.drawing.chain(), list.listed.frame, list.places.placements, camera, 0);
     counts.uploaded_bytes += model.buffers.fill(drawn);
-    model.drawing.draw_calls(model.programs[list.is_fading], model.buffers, drawn, drawn.whole_calls, options);
+    const gl::Program& program = model.programs[list.is_fading];
+    program.use();
+    glUniform1f(program.at("haze_per_m"), float(haze_per_m));
+    model.drawing.draw_calls(program, model.buffers, drawn, drawn.whole_calls, options);
     counts.draw_call_count += drawn.whole_calls.size();
 }
 
 PlantCounts Plants::draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantList> lists,
-                         const std::optional<view::Part>& part) {
+                         double haze_per_m, const std::optional<view::Part>& part) {
     PlantCounts counts = counts_of(lists);
     target.bind();
     discrete::DrawOptions options;
     options.part = part;
-    for (const PlantList& list : lists) draw_list(list, camera, options, counts);
+    for (const PlantList& list : lists) draw_list(list, camera, haze_per_m, options, counts);
     return counts;
 }
 

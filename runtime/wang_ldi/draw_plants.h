@@ -41,9 +41,10 @@ class Plants {
 
     // error_px: of the pixels of the camera's picture; 0: the finest levels.
     std::vector<PlantList> lists(const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px) const;
-    // Draws over what the target holds, by depth; does not resolve. part: of the camera's picture, that the target shows; the
-    // whole of it if not said.
-    PlantCounts draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantList> lists,
+    // Draws over what the target holds, by depth; does not resolve. haze_per_m: of the air before them, as terrain::Drawing's; 0:
+    // none, as they are drawn by a PlantRaster, before whose picture a Composite puts it. part: of the camera's picture, that the
+    // target shows; the whole of it if not said.
+    PlantCounts draw(const gl::Target& target, const view::Camera& camera, std::span<const PlantList> lists, double haze_per_m,
                      const std::optional<view::Part>& part = std::nullopt);
     // For a PlantRaster, made when first asked for: one a model; none if one of them cannot be shaped.
     std::span<const PlantShape> shapes();
@@ -56,7 +57,8 @@ class Plants {
         std::vector<gl::Program> programs;  // of plants that are whole, and that fade
         discrete::ListBuffers buffers;
     };
-    void draw_list(const PlantList& list, const view::Camera& camera, const discrete::DrawOptions& options, PlantCounts& counts);
+    void draw_list(const PlantList& list, const view::Camera& camera, double haze_per_m, const discrete::DrawOptions& options,
+                   PlantCounts& counts);
 
     PlantLight light_;
     std::vector<PlantForm> forms_;    // of each model

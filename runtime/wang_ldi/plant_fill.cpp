@@ -63,8 +63,7 @@ const Skin::Level& PlantFill::skin_level(const Skin& skin, const Filled& triangl
 Four PlantFill::texel(const Skin::Level& level, float u, float v) {
     constexpr float kWhole = 1.0f / 65535, kMost = 1e6f;
     if (level.texels.size() == 1) return kWhole * linear_of(level.texels.front());
-    float x = std::clamp(u * float(level.width) - 0.5f, -kMost, kMost),
-          y = std::clamp(v * float(level.height) - 0.5f, -kMost, kMost);
+    float x = held(u * float(level.width) - 0.5f, kMost), y = held(v * float(level.height) - 0.5f, kMost);
     float left = std::floor(x), top = std::floor(y), right_share = x - left, down_share = y - top;
     uint32_t x0 = wrapped(int32_t(left), level.width), x1 = wrapped(int32_t(left) + 1, level.width);
     uint32_t y0 = wrapped(int32_t(top), level.height), y1 = wrapped(int32_t(top) + 1, level.height);
@@ -77,7 +76,7 @@ Four PlantFill::texel(const Skin::Level& level, float u, float v) {
 
 uint32_t PlantFill::encoded(const Four& linear) {
     auto byte = [&](int lane) {
-        float at = std::min(std::max(linear[lane], 0.0f), 1.0f) * (kLinearSteps - 1) + 0.5f;
+        float at = std::max(0.0f, held(linear[lane], 1)) * (kLinearSteps - 1) + 0.5f;
         return uint32_t(kEncoded[size_t(at)]);
     };
     return byte(0) | byte(1) << 8 | byte(2) << 16 | 0xff000000u;

@@ -19,6 +19,11 @@ using Four = float __attribute__((vector_size(16)));
 constexpr int kCornerSteps = 256;      // of a pixel: where corners lie
 constexpr float kFarthest_px = 16000;  // from the picture's middle, as corners may lie
 
+// From -most to most; -most of what is no number.
+inline float held(float v, float most) {
+    return std::min(std::max(-most, v), most);
+}
+
 // On the picture.
 struct Corner {
     int32_t x = 0, y = 0;  // steps from the left and the top
@@ -139,7 +144,7 @@ void PlantFill::draw(const Skin& skin, Filled& triangle, const PixelBox& box, co
             w0 *= depth_m, w1 *= depth_m, w2 *= depth_m;
             Four own = w0 * a.colour + w1 * b.colour + w2 * c.colour;
             own *= texel(*level, w0 * a.u + w1 * b.u + w2 * c.u, w0 * a.v + w1 * b.v + w2 * c.v);
-            if (own[3] < skin.alpha_cutoff) continue;
+            if (!(own[3] >= skin.alpha_cutoff)) continue;
             row[x] = std::min(row[x], pixel_key(depth_m, encoded(own)));
         }
         for (Edge& edge : edges) edge.whole += edge.down;

@@ -3,43 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/wang_ldi/plant_cut.h"
+
 namespace overlook::wang_ldi {
 namespace {
-
-// Of a triangle that is cut: as Eye::seen, and what changes evenly along it.
-struct CutCorner {
-    glm::vec3 seen{0};
-    std::array<float, 2> uv{};
-    Four colour{};
-};
-// Its corners, and up to five more.
-struct Polygon {
-    std::array<CutCorner, 8> corners;
-    int count = 0;
-};
-
-// From a corner that is seen to one that is not, so that both triangles of an edge are cut at the same place.
-CutCorner between(const CutCorner& in, const CutCorner& out, float in_side, float out_side) {
-    float share = in_side / (in_side - out_side);
-    CutCorner made;
-    made.seen = in.seen + share * (out.seen - in.seen);
-    for (size_t k = 0; k < 2; ++k) made.uv[k] = in.uv[k] + share * (out.uv[k] - in.uv[k]);
-    made.colour = in.colour + share * (out.colour - in.colour);
-    return made;
-}
-
-template <class Side>
-Polygon cut(const Polygon& from, const Side& side) {
-    Polygon made;
-    for (int k = 0; k < from.count; ++k) {
-        const CutCorner &one = from.corners[size_t(k)], &next = from.corners[size_t((k + 1) % from.count)];
-        float here = side(one.seen), there = side(next.seen);
-        if (here >= 0) made.corners[size_t(made.count++)] = one;
-        if (here >= 0 && there < 0) made.corners[size_t(made.count++)] = between(one, next, here, there);
-        if (here < 0 && there >= 0) made.corners[size_t(made.count++)] = between(next, one, there, here);
-    }
-    return made;
-}
 
 inline Four four(const glm::vec3& v, float last) {
     return Four{v.x, v.y, v.z, last};
@@ -90,7 +57,7 @@ bool PlantPen::is_hidden(const ShapeBunch& bunch) const {
     float nearest_m = (middle.z - half.z) * kLess, farthest_m = middle.z + half.z;
     if (nearest_m < eye_.near_m) return false;
     auto greatest = [&](float across) { return across / (across > 0 ? nearest_m : farthest_m); };
-    auto pixel = [&](float at_px) { return int(std::floor(std::clamp(at_px, -kMost_px, kMost_px))); };
+    auto pixel = [&](float at_px) { return int(std::floor(held(at_px, kMost_px))); };
     glm::vec2 at = eye_.middle_px;
     PixelBox box = fill_.columns();
     box.left = std::max(box.left, pixel(at.x - greatest(half.x - middle.x)) - 1);
@@ -105,7 +72,7 @@ void PlantPen::draw_bunch(const Skin& skin, const ShapeBunch& bunch) {
     for (uint32_t i = bunch.first_index; i < bunch.first_index + bunch.index_count; i += 3) {
         const uint16_t* corners = level_->indices.data() + i;
         uint8_t a = behind_[corners[0]], b = behind_[corners[1]], c = behind_[corners[2]];
-        if (a & b & c) continue;
+        if (a & b & c & ~kFar) continue;
         if ((a | b | c) & (kNear | kFar))
             draw_cut(skin, i);
         else
@@ -130,14 +97,16 @@ void PlantPen::place(const ShapeBunch& bunch) {
         bool is_near = !(depth >= near_m);
         nearness_[v] = 1 / (is_near ? 1.0f : depth);
         right *= nearness_[v], up *= nearness_[v];
-        bool is_far = !(std::abs(right) <= kFarthest_px) | !(std::abs(up) <= kFarthest_px) | is_near;
-        float x = middle.x + (is_far ? 0.0f : right), y = middle.y - (is_far ? 0.0f : up);
+        bool is_far = !(std::abs(right) <= kFarthest_px) | !(std::abs(up) <= kFarthest_px);
+        float x = middle.x + right, y = middle.y - up;
+        unsigned sides =
+            unsigned(x < 0) * kLeft + unsigned(x > size.x) * kRight + unsigned(y < 0) * kAbove + unsigned(y > size.y) * kBelow;
+        behind_[v] = uint8_t(is_near ? unsigned(kNear) : sides + unsigned(is_far) * kFar);
+        bool has_place = !(is_far | is_near);
+        x = has_place ? x : 0.0f, y = has_place ? y : 0.0f;
         float fx = x * kCornerSteps + 0.5f, fy = y * kCornerSteps + 0.5f;
         auto ix = int32_t(fx), iy = int32_t(fy);
         x_[v] = ix - (float(ix) > fx), y_[v] = iy - (float(iy) > fy);
-        unsigned sides =
-            unsigned(x < 0) * kLeft + unsigned(x > size.x) * kRight + unsigned(y < 0) * kAbove + unsigned(y > size.y) * kBelow;
-        behind_[v] = uint8_t(is_near ? unsigned(kNear) : is_far ? unsigned(kFar) : sides);
     }
     std::fill_n(is_lit_.begin(), count, uint8_t(0));
 }
@@ -197,9 +166,10 @@ void PlantPen::draw_cut(const Skin& skin, uint32_t index) {
 
 Corner PlantPen::corner_at(const glm::vec3& seen, const std::array<float, 2>& uv) const {
     Corner made;
-    made.nearness = 1 / seen.z, made.u = uv[0], made.v = uv[1];
-    made.x = int32_t(std::floor((eye_.middle_px.x + seen.x * made.nearness) * kCornerSteps + 0.5f));
-    made.y = int32_t(std::floor((eye_.middle_px.y - seen.y * made.nearness) * kCornerSteps + 0.5f));
+    made.nearness = 1 / std::max(eye_.near_m, seen.z), made.u = uv[0], made.v = uv[1];
+    float right = held(seen.x * made.nearness, kFarthest_px), up = held(seen.y * made.nearness, kFarthest_px);
+    made.x = int32_t(std::floor((eye_.middle_px.x + right) * kCornerSteps + 0.5f));
+    made.y = int32_t(std::floor((eye_.middle_px.y - up) * kCornerSteps + 0.5f));
     return made;
 }
 
@@ -227,7 +197,7 @@ Four PlantPen::sent(uint32_t vertex, const glm::vec3& normal) const {
     if (!light_.is_lit) return tinted;
     constexpr float kLast = kCanopySteps - 1;
     float height_m = scale_ * level_->z_m[first_vertex_ + vertex], top_m = float(std::max(light_.canopy.top_m, 1e-6));
-    float place = std::clamp(height_m / top_m, 0.0f, 1.0f) * kLast;
+    float place = std::max(0.0f, held(height_m / top_m, 1)) * kLast;
     auto below = size_t(place);
     glm::vec2 open = glm::mix(light_.canopy.open[below], light_.canopy.open[std::min<size_t>(below + 1, kCanopySteps - 1)],
                               place - float(below));

@@ -24,7 +24,8 @@ class PlantPen {
     void draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, float share);
 
   private:
-    // Of a vertex: which side of the picture it is behind, and that it cannot be brought there.
+    // Of a vertex: which sides of the picture it is behind, or that it is behind the near plane, and that it cannot be brought
+    // there.
     enum Behind : uint8_t { kLeft = 1, kRight = 2, kAbove = 4, kBelow = 8, kNear = 16, kFar = 32 };
     // The light that a vertex sends, tinted, on the side of its normal and on the other.
     struct Lit {
@@ -50,6 +51,7 @@ class PlantPen {
     glm::vec3 stood(const glm::vec3& own) const;
     glm::vec3 own_m(uint32_t vertex) const;
     glm::vec3 face(uint32_t index) const;
+    // As near as can be to where it is seen, whatever rounding made of it.
     Corner corner_at(const glm::vec3& seen, const std::array<float, 2>& uv) const;
 
     Eye eye_;

@@ -26,6 +26,55 @@ uint16_t stored(float share) {
     return uint16_t(std::lround(65535 * std::clamp(share, 0.0f, 1.0f)));
 }
 
+// Red, green, blue, opacity.
+using Light = std::array<float, 4>;
+
+// at(x, y): its Light.
+template <class At>
+Skin::Level level_of(uint32_t width, uint32_t height, const At& at) {
+    Skin::Level level{width, height, {}};
+    level.texels.reserve(size_t(width) * height);
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            Light of = at(x, y);
+            level.texels.push_back({stored(of[0]), stored(of[1]), stored(of[2]), stored(of[3])});
+        }
+    return level;
+}
+
+// What a texel at `at` of half of `from`, rounded down, covers of it, and how much of each.
+struct Cover {
+    uint32_t first = 0, count = 1;
+    std::array<float, 3> shares{1, 0, 0};
+};
+Cover cover_of(uint32_t at, uint32_t from) {
+    if (from == 1) return {};
+    if (from % 2 == 0) return {2 * at, 2, {0.5f, 0.5f, 0}};
+    auto all = float(from), half = float(from / 2);
+    return {2 * at, 3, {(half - float(at)) / all, half / all, (float(at) + 1) / all}};
+}
+
+template <class At>
+Skin::Level half_of(uint32_t width, uint32_t height, const At& at) {
+    return level_of(std::max(width / 2, 1u), std::max(height / 2, 1u), [&](uint32_t x, uint32_t y) {
+        Cover right = cover_of(x, width), down = cover_of(y, height);
+        Light sum{};
+        for (uint32_t j = 0; j < down.count; ++j)
+            for (uint32_t i = 0; i < right.count; ++i) {
+                Light of = at(right.first + i, down.first + j);
+                for (size_t c = 0; c < 4; ++c) sum[c] += right.shares[i] * down.shares[j] * of[c];
+            }
+        return sum;
+    });
+}
+
+Skin::Level half_of(const Skin::Level& level) {
+    return half_of(level.width, level.height, [&](uint32_t x, uint32_t y) {
+        const auto& of = level.texels[size_t(y) * level.width + x];
+        return Light{float(of[0]) / 65535, float(of[1]) / 65535, float(of[2]) / 65535, float(of[3]) / 65535};
+    });
+}
+
 glm::vec3 normal_of(const discrete::Vertex& vertex) {
     auto share = [](int16_t v) { return std::max(float(v) / 32767, -1.0f); };
     float x = share(vertex.normal[0]), y = share(vertex.normal[1]);
@@ -94,15 +143,19 @@ void add_bunch(const discrete::Chain& chain, const discrete::Level& from, uint32
 }  // namespace
 
 void Skin::add_level(uint32_t width, uint32_t height, std::span<const uint8_t> rgba, const caveclod::Surface& surface) {
-    Level level{width, height, {}};
-    level.texels.reserve(size_t(width) * height);
-    for (size_t i = 0; i < size_t(4) * width * height; i += 4) {
-        auto colour = [&](size_t c) { return stored(linear_of(rgba[i + c]) * linear_of(surface.colour[c])); };
-        level.texels.push_back(
-            {colour(0), colour(1), colour(2), stored(float(rgba[i + 3]) / 255 * float(surface.colour[3]) / 255)});
-    }
-    levels.push_back(std::move(level));
+    auto at = [&](uint32_t x, uint32_t y) {
+        const uint8_t* of = rgba.data() + 4 * (size_t(y) * width + x);
+        auto colour = [&](size_t c) { return linear_of(of[c]) * linear_of(surface.colour[c]); };
+        return Light{colour(0), colour(1), colour(2), float(of[3]) / 255 * float(surface.colour[3]) / 255};
+    };
+    bool fits = size_t(width) * height <= kMostTexels;
+    levels.push_back(fits ? level_of(width, height, at) : half_of(width, height, at));
+    while (size_t(levels.back().width) * levels.back().height > kMostTexels) levels.back() = half_of(levels.back());
     alpha_cutoff = surface.is_alpha_masked ? surface.alpha_cutoff : 0, is_two_sided = surface.is_two_sided;
+}
+
+void Skin::add_halves() {
+    while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half_of(levels.back()));
 }
 
 Skin plain_skin(const caveclod::Surface& surface) {

@@ -17,12 +17,16 @@ struct Skin {
         uint32_t width = 0, height = 0;
         std::vector<std::array<uint16_t, 4>> texels;  // red, green, blue, opacity: 65,535 is 1; top row first
     };
-    std::vector<Level> levels;  // at least one; the last may be any size
-    float alpha_cutoff = 0;     // what is more transparent is not drawn
+    static constexpr size_t kMostTexels = size_t(1) << 22;  // a level: 45 MB with its halves
+    std::vector<Level> levels;                              // at least one; the last may be any size
+    float alpha_cutoff = 0;                                 // what is more transparent is not drawn
     bool is_two_sided = false;
 
-    // rgba: [height, width, 4], colours sRGB-encoded, opacity linear; a level's size is at least 1.
+    // A picture of more texels than kMostTexels is halved first: memory. rgba: [height, width, 4], colours sRGB-encoded, opacity
+    // linear; a level's size is at least 1.
     void add_level(uint32_t width, uint32_t height, std::span<const uint8_t> rgba, const caveclod::Surface& surface);
+    // From the last level down to a single texel, each half as large, rounded down: plain means, of opacity as of light.
+    void add_halves();
 };
 // Of a surface without a picture, with its colour alone.
 Skin plain_skin(const caveclod::Surface& surface);

@@ -11,8 +11,9 @@ namespace overlook::wang_ldi {
 namespace {
 
 constexpr FrameOptions kDefaults;
-constexpr uint32_t kWidestFine_px = 8192;  // pictures of more are not warped finer than they are: memory
-constexpr double kOfGround = 1.0 / 8;      // of the error, that tiles may stand off their ground
+constexpr uint32_t kWidestFine_px = 8192;             // pictures of more are not warped finer than they are: memory, of
+constexpr uint64_t kMostFine_px = uint64_t(1) << 24;  // which each thread that warps takes 8 bytes a pixel
+constexpr double kOfGround = 1.0 / 8;                 // of the error, that tiles may stand off their ground
 constexpr SettingKind kErrorPx{"error-px", 0.001, 10000, kDefaults.error_px};
 constexpr SettingKind kRadiusM{"radius-m", 0, 1e7, kDefaults.radius_m, false, true};
 constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
@@ -98,7 +99,11 @@ double geometry_to_m(const ImageSet& images, const FrameOptions& options) {
 view::Camera warped_camera(const FrameOptions& options, view::Camera camera) {
     if (options.variant == Variant::paper) return camera;
     uint32_t by_target = options.samples >= 4 ? 2 : 1, side = options.splat_samples > 0 ? options.splat_samples : by_target;
-    while (side > 1 && std::max(camera.width_px, camera.height_px) * side > kWidestFine_px) --side;
+    auto is_too_large = [&] {
+        bool is_wide = std::max(camera.width_px, camera.height_px) * side > kWidestFine_px;
+        return is_wide || uint64_t(camera.width_px) * camera.height_px * side * side > kMostFine_px;
+    };
+    while (side > 1 && is_too_large()) --side;
     camera.width_px *= side, camera.height_px *= side;
     return camera;
 }

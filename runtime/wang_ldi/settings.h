@@ -31,14 +31,16 @@ struct FrameOptions {
     bool fills_holes = true;    // of own, unless it is exact: small ones, as fill_holes
     bool widens_splats = true;  // of own: FieldOptions::widens_splats
     // Of own: what is warped has so many samples along each side of a pixel, of which a target of several samples a pixel takes
-    // the one at each of them, so that splats cover a part of a pixel; 1..4, 0: 2 where `samples` are 4 or more, else 1.
+    // the one at each of them, so that splats cover a part of a pixel; 1..4, 0: 2 where `samples` are 4 or more, else 1. Fewer of
+    // large pictures (warped_camera).
     uint32_t splat_samples = 0;
     bool has_far = true;      // of own: textures and colours beyond the images; false: nothing is drawn there
     bool is_by_depth = true;  // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
     bool cuts_tiles = true;   // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
     Warper warper = Warper::by_renderer;  // of own, unless it is exact
     // Who draws triangles of plants; by the renderer: the processor's own hand where that is the renderer and pictures have one
-    // sample a pixel. Only beside what the processor warps by depth.
+    // sample a pixel. The processor's only beside what the processor warps by depth, exactly or not, and of plants that keep
+    // still; else OpenGL's.
     Warper geometry_by = Warper::by_renderer;
     uint32_t samples = 1;       // a pixel of what is drawn into
     bool is_pipelined = false;  // the warp of the next frame overlaps drawing this one, which is shown a frame late
@@ -57,7 +59,7 @@ void set(FrameOptions& options, std::string_view name, double value);
 double geometry_to_m(const ImageSet& images, const FrameOptions& options);
 
 // The camera with as many pixels as are warped for its picture; of large pictures fewer than asked, so that they have at most
-// 8192 a side, or the picture's own.
+// 8192 a side and 2^24 in all (128 MiB for each thread that warps), or the picture's own.
 view::Camera warped_camera(const FrameOptions& options, view::Camera camera);
 
 // Of a camera's pictures, and textures of so many pixels a side.

@@ -29,6 +29,17 @@ std::vector<std::byte> stripes(const ScratchFolder& folder) {
     return {view.begin(), view.end()};
 }
 
+// 16 x 16 pixels as a PNG in hexadecimal: columns of transparent red, and of blue that is not, in turn.
+constexpr std::string_view kColumns =
+    "89504e470d0a1a0a0000000d49484452000000100000001008060000001ff3ff610000001b4944415478da63f8cf0002ffff934b338c1a30"
+    "6ac0a801c3c50000e6b97e90b0d5dc910000000049454e44ae426082";
+std::vector<std::byte> columns() {
+    std::vector<std::byte> bytes;
+    for (size_t i = 0; i < kColumns.size(); i += 2)
+        bytes.push_back(std::byte(std::stoi(std::string(kColumns.substr(i, 2)), nullptr, 16)));
+    return bytes;
+}
+
 // A globe upon the ground, its picture once round it, and a leaf beside it that lets light through.
 std::vector<discrete::Chain> chains(const ScratchFolder& folder) {
     discrete::Chain globe = discrete::made::empty_chain({-1, -1, 0}, 2);
@@ -86,7 +97,7 @@ struct Both {
     std::vector<float> depth;
     Warped by_processor;
 };
-void draw(Plants& plants, bool fades, Both& both) {
+void draw(Plants& plants, bool fades, Both& both, double haze_per_m = 0) {
     auto target = gl::Target::make(kWide, kHigh, 1);
     ASSERT_TRUE(target);
     target->bind();
@@ -94,7 +105,7 @@ void draw(Plants& plants, bool fades, Both& both) {
     glClearBufferfv(GL_COLOR, 0, black);
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     std::vector<PlantList> lists = plants.lists(camera(), places(fades), 1);
-    PlantCounts counts = plants.draw(*target, camera(), lists);
+    PlantCounts counts = plants.draw(*target, camera(), lists, haze_per_m);
     EXPECT_GT(counts.plant_count, 10u);
     EXPECT_EQ(counts.triangle_count, counts_of(lists).triangle_count);
     target->resolve();
@@ -153,6 +164,25 @@ TEST(PlantsByTheProcessor, HaveFacesOfTheirOwnWithoutNormals) {
     Both both;
     draw(*plants, false, both);
     expect_alike(both);
+}
+
+// What is transparent counts as much as what is not where nothing is held against a threshold.
+TEST(PlantsByTheProcessor, HavePicturesInPlainMeansUnlessTheyAreMasked) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    ScratchFolder folder;
+    for (bool is_masked : {false, true}) {
+        std::vector<discrete::Chain> of = chains(folder);
+        caveclod::Surface& surface = of[0].surfaces[0];
+        surface.texture = "columns.png", surface.texture_bytes = columns();
+        surface.is_alpha_masked = is_masked, surface.alpha_cutoff = 0.2f;
+        of[0].uv_step *= 10000;  // nowhere as large as it is
+        auto plants = Plants::make(of, planting(), glm::dvec3(0));
+        ASSERT_TRUE(plants) << plants.error().message;
+        Both both;
+        draw(*plants, false, both);
+        expect_alike(both);
+        EXPECT_EQ(plants->shapes()[0].skins[0].levels.back().texels[0][0] == 0, is_masked);
+    }
 }
 
 TEST(PlantsByTheProcessor, AreLeftToOpenGlIfTheyMove) {

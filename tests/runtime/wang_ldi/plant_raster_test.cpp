@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "formats/parallel.h"
+#include "runtime/wang_ldi/plant_cut.h"
 #include "tests/runtime/discrete/chains.h"
 
 namespace overlook::wang_ldi {
@@ -79,6 +81,108 @@ TEST(PlantRaster, NearerThingsHideFartherOnes) {
                        plant_lists(stand.forms, std::vector<PlantPlaces>{{{{{0, 9, 0}}, {{0.9, 5, 0}}}, {1, 1}}}, from, 1), held);
     EXPECT_EQ(held.depth_m[32 * 64 + 40], drawn(stand, {{{{{0.9, 5, 0}}}, {1}}}, from).depth_m[32 * 64 + 40]);
     EXPECT_EQ(held.colours[32 * 64 + 20], 0xff123456);
+}
+
+// Its corners are farther from the picture's middle than corners may lie.
+TEST(PlantRaster, WhatCoversThePictureIsSeenHoweverFarItsCornersAre) {
+    discrete::Chain chain = discrete::made::empty_chain(glm::dvec3(-1), 2);
+    discrete::Level level;
+    discrete::made::add_quad(chain, level, {glm::dvec3{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, {90, 200, 60, 255});
+    discrete::made::end_level(chain, std::move(level), 0);
+    view::Camera from = camera(320, 240);
+    for (double fov_deg : {30.0, 1.0}) {
+        from.fov_y_deg = fov_deg;
+        Warped picture = drawn(stand_of(chain), {{{{{0, 0.5, 0}}}, {1}}}, from);
+        EXPECT_EQ(std::count(picture.colours.begin(), picture.colours.end(), 0u), 0) << fov_deg;
+        for (float depth_m : {picture.depth_m.front(), picture.depth_m.back()}) EXPECT_NEAR(depth_m, 0.5, 1e-3) << fov_deg;
+    }
+}
+
+// Triangles as large as a planet's orbit, as files may have them. along_axis: each has an edge
+// from as far behind its foot as before it, straight to the north.
+discrete::Chain far_too_large(bool along_axis) {
+    constexpr double kStep_m = 1e12 / 32768;
+    constexpr uint16_t kMiddle = 32768, kSouth = 1, kNorth = 65535;
+    discrete::Chain chain = discrete::made::empty_chain(glm::dvec3(-kStep_m * kMiddle), 65535 * kStep_m);
+    chain.uv_low = {-1e30, 1e30}, chain.uv_step = 1e30;
+    std::mt19937 random(7);
+    discrete::Level level;
+    for (uint32_t n = 0; n < 900; ++n) {
+        discrete::Vertex vertex;
+        for (auto& at : vertex.position) at = uint16_t(random() % 3 == 0 ? kMiddle - 1 + random() % 3 : random() % 65536);
+        if (along_axis && n % 3 < 2) vertex.position = {kMiddle, n % 3 == 0 ? kSouth : kNorth, kMiddle};
+        for (auto& at : vertex.uv) at = uint16_t(random() % 65536);
+        vertex.normal = {int16_t(random() % 32767), 0}, vertex.colour = {200, 100, 50, 255};
+        level.vertices.push_back(vertex), level.indices.push_back(n);
+    }
+    discrete::made::end_level(chain, std::move(level), 0);
+    return chain;
+}
+
+TEST(PlantRaster, WhatIsFarTooLargeIsDrawnBeforeTheNearPlaneOrNotAtAll) {
+    view::Camera from = camera(97, 61);
+    for (bool along_axis : {false, true}) {
+        Stand stand = stand_of(far_too_large(along_axis));
+        stand.shapes[0].skins[0].levels = {{2, 2, std::vector<std::array<uint16_t, 4>>(4, {65535, 65535, 65535, 65535})}};
+        size_t shown = 0;
+        for (int n = 0; n < 60; ++n) {
+            discrete::Placement at{{0.3 * n - 9, 0, 0.2 * (n % 7) - 0.7}, 1, 0, n % 3 == 0 ? 1e6 : 1};
+            from.fov_y_deg = n % 2 == 0 ? 60 : 1;
+            if (!along_axis) {
+                from.heading_deg = 6.1 * n, from.pitch_deg = 20.0 * std::sin(n);
+                at.translation_m = {0.3 * n, 1, 0.1}, at.cosine = 0.6, at.sine = 0.8;
+            }
+            Warped picture = drawn(stand, {{{at}, {1}}}, from);
+            for (size_t p = 0; p < picture.colours.size(); ++p) {
+                if (picture.colours[p] == 0) continue;
+                ++shown;
+                ASSERT_TRUE(std::isfinite(picture.depth_m[p]) && picture.depth_m[p] >= 0.999f * float(from.near_m)) << n;
+            }
+        }
+        EXPECT_GT(shown, 10'000u);
+        from.heading_deg = from.pitch_deg = 0;
+    }
+}
+
+TEST(PlantCut, HasNoMoreCornersThanThereIsRoomFor) {
+    Polygon polygon;
+    for (int k = 0; k < 40; ++k) polygon.add({glm::vec3(k, k % 2 == 0 ? 1 : -1, 1)});
+    EXPECT_EQ(polygon.count, 16);
+    for (int again = 0; again < 3; ++again) {
+        polygon = cut(polygon, [](const glm::vec3& p) { return p.y; });
+        EXPECT_EQ(polygon.count, 16);
+        for (int k = 0; k < polygon.count; ++k) EXPECT_GE(polygon.corners[size_t(k)].seen.y, 0);
+        for (int k = 0; k < polygon.count; ++k) polygon.corners[size_t(k)].seen.y = k % 2 == 0 ? 1.0f : -1.0f;
+    }
+}
+
+// Transparent red beside blue that is not.
+TEST(Skin, HalvesArePlainMeans) {
+    caveclod::Surface surface;
+    std::vector<uint8_t> rgba;
+    for (uint32_t p = 0; p < 5 * 3; ++p)
+        for (int c : p % 5 < 2 ? std::array{255, 0, 0, 0} : std::array{0, 0, 255, 255}) rgba.push_back(uint8_t(c));
+    Skin skin;
+    skin.add_level(5, 3, rgba, surface);
+    skin.add_halves();
+    ASSERT_EQ(skin.levels.size(), 3u);
+    EXPECT_EQ(skin.levels[1].width, 2u);
+    EXPECT_EQ(skin.levels[1].height, 1u);
+    // Of five columns the middle one is shared.
+    std::array<float, 4> left{0.8f, 0, 0.2f, 0.2f}, both{0.4f, 0, 0.6f, 0.6f};
+    for (size_t c = 0; c < 4; ++c) {
+        EXPECT_NEAR(skin.levels[1].texels[0][c], 65535 * left[c], 1) << c;
+        EXPECT_NEAR(skin.levels[2].texels[0][c], 65535 * both[c], 2) << c;
+    }
+}
+
+TEST(Skin, HasNoLevelsThatAreTooLarge) {
+    constexpr uint32_t kWide = 4100, kHigh = 2052;
+    Skin skin;
+    skin.add_level(kWide, kHigh, std::vector<uint8_t>(size_t(4) * kWide * kHigh, 255), {});
+    EXPECT_EQ(skin.levels[0].width, kWide / 2);
+    EXPECT_EQ(skin.levels[0].height, kHigh / 2);
+    EXPECT_EQ(skin.levels[0].texels.back()[0], 65535);
 }
 
 TEST(PlantRaster, ThreadsChangeNothing) {

@@ -52,6 +52,12 @@ TEST(PlantingSettings, SplatsAreAsFineAsTheTargetUnlessSaid) {
     large.width_px = 5000;
     EXPECT_EQ(warped_camera(soft, large).width_px, 5000u);
     EXPECT_EQ(warped_camera(soft, large).height_px, large.height_px);
+    large.width_px = large.height_px = 2048;  // 2^24 of them
+    EXPECT_EQ(warped_camera(soft, large).width_px, 4096u);
+    large.height_px += 1;
+    EXPECT_EQ(warped_camera(soft, large).width_px, 2048u);
+    soft.splat_samples = 4, large.width_px = 1600, large.height_px = 900;
+    EXPECT_EQ(warped_camera(soft, large).width_px, 3 * large.width_px);
 }
 
 TEST(PlantingSettings, OfWiderSamplesBeginLevelsNearer) {
