@@ -173,7 +173,7 @@ TEST(WindowsBeside, SayWhatOneByOneSay) {
 // Each sample's nearest are 2,200 to 2,800 steps away, in the columns beside it, and say which group its colour is in.
 TEST(LayeredImages, ComeBackGroupedWhereNothingIsNear) {
     ImageSet set = field();
-    set.is_grouped = true, set.has_normals = set.has_splats = false, set.levels = {{32, 1, 0.00006f, 1}};
+    set.is_grouped = true, set.has_normals = set.has_splats = false, set.levels = {{32, 1, 0.00003f, 1}};
     Ldi ldi;
     ldi.side_px = 32, ldi.first = {0}, ldi.unseen_share = 0.25f;
     for (int c = 0; c < 256; ++c) ldi.palette.push_back({uint8_t(c), 0, 7});
