@@ -10,16 +10,17 @@
 
 namespace overlook::wang_ldi {
 
-constexpr int kMostSplat_px = 64;
+constexpr int kMostSplat_px = 64;  // of pixels of the picture, however fine it is warped
 
-// A camera, asked for its axes once.
+// A camera, asked for its axes once. finer: so many of its pixels lie along a side of one of the picture.
 struct Eye {
-    explicit Eye(const view::Camera& camera)
+    explicit Eye(const view::Camera& camera, uint32_t finer = 1)
         : position_m(camera.position_m),
           axes(view::axes_of(camera)),
           focal_px(view::focal_px(camera)),
           near_m(float(camera.near_m)),
-          middle_px(glm::vec2(camera.width_px, camera.height_px) * 0.5f) {}
+          middle_px(glm::vec2(camera.width_px, camera.height_px) * 0.5f),
+          most_splat_px(kMostSplat_px * int(finer)) {}
 
     // (right, up, forward) of a vector, right and up times the focal length: divided by forward they are pixels from the middle.
     glm::vec3 seen(const glm::dvec3& v) const {
@@ -31,6 +32,7 @@ struct Eye {
     double focal_px;
     float near_m;
     glm::vec2 middle_px;
+    int most_splat_px;
 };
 
 // A picture that is painted, by order or by depth. Of what is equally deep the colour of the lower number is shown, so that by
@@ -62,14 +64,14 @@ class Brush {
   public:
     static constexpr bool kIsByDepth = Target::kIsByDepth;  // the order does not matter
     Brush(const Eye& eye, const Target& target, WarpCounts& counts)
-        : target_(target), counts_(counts), near_m_(eye.near_m), middle_px_(eye.middle_px) {}
+        : target_(target), counts_(counts), near_m_(eye.near_m), middle_px_(eye.middle_px), most_px_(eye.most_splat_px) {}
 
     // at: as Eye::seen, from the eye. wide: of the splat, times the focal length, in metres.
     void splat(const glm::vec3& at, float wide, uint32_t colour) {
         ++counts_.samples;
         if (!(at.z >= near_m_)) return;
         float nearness = 1 / at.z, x = middle_px_.x + at.x * nearness, y = middle_px_.y - at.y * nearness;
-        int side = std::clamp(int(std::min(wide * nearness, 1e4f) + 0.5f), 1, kMostSplat_px);
+        int side = std::clamp(int(std::min(wide * nearness, 1e4f) + 0.5f), 1, most_px_);
         float half = 0.5f * float(side - 1);
         if (!(std::abs(x) < 1e6f && std::abs(y) < 1e6f)) return;
         fill(int(std::floor(x - half)), int(std::floor(y - half)), side, at.z, colour);
@@ -89,6 +91,7 @@ class Brush {
     WarpCounts& counts_;
     float near_m_;
     glm::vec2 middle_px_;
+    int most_px_;
 };
 
 }  // namespace overlook::wang_ldi

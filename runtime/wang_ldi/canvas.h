@@ -21,21 +21,23 @@ class Canvas {
     static constexpr int64_t kNothing = std::numeric_limits<int64_t>::max();
 
     // Empties it where it has another size, and leaves it as it is else: whoever reads it out empties it.
-    void fit(uint32_t width_px, uint32_t height_px) {
-        if (width_px == width_px_ && height_px == height_px_) return;
-        width_px_ = width_px, height_px_ = height_px;
-        keys_.assign(size_t(stride()) * (height_px + 2 * kMostSplat_px), kNothing);
+    // most_splat_px: as Eye's.
+    void fit(uint32_t width_px, uint32_t height_px, int most_splat_px = kMostSplat_px) {
+        if (width_px == width_px_ && height_px == height_px_ && most_splat_px == margin_px_) return;
+        width_px_ = width_px, height_px_ = height_px, margin_px_ = most_splat_px;
+        keys_.assign(size_t(stride()) * (height_px + 2 * uint32_t(margin_px_)), kNothing);
     }
     uint32_t width_px() const { return width_px_; }
     uint32_t height_px() const { return height_px_; }
-    int32_t stride() const { return int32_t(width_px_) + 2 * kMostSplat_px; }
-    // Of pixel (x, y) from -kMostSplat_px on: origin + y * stride + x.
-    int32_t origin() const { return kMostSplat_px * stride() + kMostSplat_px; }
+    int32_t stride() const { return int32_t(width_px_) + 2 * margin_px_; }
+    // Of pixel (x, y) from -most_splat_px on: origin + y * stride + x.
+    int32_t origin() const { return margin_px_ * stride() + margin_px_; }
     int64_t* keys() { return keys_.data(); }
     int64_t* row(uint32_t y) { return keys_.data() + origin() + ptrdiff_t(y) * stride(); }
 
   private:
     uint32_t width_px_ = 0, height_px_ = 0;
+    int32_t margin_px_ = 0;
     std::vector<int64_t> keys_;
 };
 

@@ -29,7 +29,8 @@ class Composite {
     GLuint colours() const { return colours_.id(); }
     GLuint depths() const { return depths_.id(); }
     // Draws it into the target, which has its size, or of which it has several times the size both ways: then each sample of the
-    // target takes the pixel that it lies in. The target holds what was drawn for the camera (whose near plane depths are by),
+    // target takes the pixel that it lies in; for a target of one sample, which lies in its pixel's middle, that has to be an odd
+    // number of times. The target holds what was drawn for the camera (whose near plane depths are by),
     // and resolves. haze_per_m: of the air before it, as terrain::Drawing's; 0: none.
     void draw(const gl::Target& target, const view::Camera& camera, double haze_per_m) const;
 

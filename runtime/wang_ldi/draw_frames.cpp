@@ -213,14 +213,14 @@ const StoredImage* FrameDrawer::image_at(uint64_t index) const {
 }
 
 // By the graphics card, as the frame is drawn.
-void FrameDrawer::splat(Slot& slot) {
+void FrameDrawer::splat(Slot& slot, const FrameOptions& options) {
     Clock clock;
     PreparedAt at = [this](uint64_t index) {
         const StoredImage* image = image_at(index);
         return image == nullptr ? nullptr : &image->prepared;
     };
-    SplatCounts drawn =
-        splats_->draw(warped_camera(options_, slot.camera), *slot.field, slot.list, at, options_.fills_holes, &far_, *composite_);
+    SplatCounts drawn = splats_->draw(warped_camera(options, slot.camera), *slot.field, slot.list, at, options.fills_holes, &far_,
+                                      *composite_, warped_finer(options, slot.camera));
     slot.counts.warp = {}, slot.counts.warp.samples = drawn.samples, slot.counts.warp.images_missing = drawn.images_missing;
     slot.counts.uploaded_bytes += drawn.uploaded_bytes, slot.counts.is_warped_by_card = true;
     slot.counts.warp_ms = clock.elapsed_ms();
@@ -231,33 +231,49 @@ void FrameDrawer::warp(Slot& slot) {
         slot.picture.clear(0, 0);  // the card has it, and none is left of an earlier way
         return;
     }
+    paint(slot, options_, slot.picture, slot.counts);
+}
+
+// By the processor, as wide as the options warp it.
+void FrameDrawer::paint(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts) {
     Clock clock;
-    bool is_paper = options_.variant == Variant::paper;
-    view::Camera camera = warped_camera(options_, slot.camera);
-    if (is_paper || options_.is_exact) {
-        slot.picture.clear(camera.width_px, camera.height_px);
+    bool is_paper = options.variant == Variant::paper;
+    view::Camera camera = warped_camera(options, slot.camera);
+    uint32_t finer = warped_finer(options, slot.camera);
+    if (is_paper || options.is_exact) {
+        picture.clear(camera.width_px, camera.height_px);
         ImageAt at = [this](uint64_t index) {
             const StoredImage* image = image_at(index);
             return image == nullptr ? nullptr : &image->ldi;
         };
-        Hiding hiding = is_paper || !options_.is_by_depth ? Hiding::by_order : Hiding::by_depth;
-        slot.counts.warp = warp_field(camera, *slot.field, slot.list, at, hiding, slot.picture, &far_);
+        Hiding hiding = is_paper || !options.is_by_depth ? Hiding::by_order : Hiding::by_depth;
+        counts.warp = warp_field(camera, *slot.field, slot.list, at, hiding, picture, &far_, finer);
     } else {
         PreparedAt at = [this](uint64_t index) {
             const StoredImage* image = image_at(index);
             return image == nullptr ? nullptr : &image->prepared;
         };
         FastOptions fast;
-        fast.fills_holes = options_.fills_holes;
-        fast.hiding = options_.is_by_depth ? Hiding::by_depth : Hiding::by_order;
-        slot.counts.warp = fast_.warp(camera, *slot.field, slot.list, at, fast, slot.picture, &far_);
-        slot.counts.holes_filled = fast_.holes_filled();
+        fast.fills_holes = options.fills_holes, fast.finer = finer;
+        fast.hiding = options.is_by_depth ? Hiding::by_depth : Hiding::by_order;
+        counts.warp = fast_.warp(camera, *slot.field, slot.list, at, fast, picture, &far_);
+        counts.holes_filled = fast_.holes_filled();
     }
-    slot.counts.warp_ms = clock.elapsed_ms();
+    counts.warp_ms = clock.elapsed_ms();
     if (!slot.counts.are_plants_by_processor) return;
     Clock of_plants;
-    raster_.draw(camera, land_.plants->shapes(), land_.plants->light(), slot.plants, slot.picture);
-    slot.counts.plants_ms = of_plants.elapsed_ms();
+    raster_.draw(camera, land_.plants->shapes(), land_.plants->light(), slot.plants, picture);
+    counts.plants_ms = of_plants.elapsed_ms();
+}
+
+// The frame's own, or warped anew if these options take another.
+const Warped& FrameDrawer::picture_for(const Slot& slot, const FrameOptions& options) {
+    view::Camera camera = warped_camera(options, slot.camera);
+    if (camera.width_px == slot.picture.width_px && camera.height_px == slot.picture.height_px) return slot.picture;
+    wait();  // what is warped meanwhile has the same tools
+    FrameCounts counts;
+    paint(slot, options, other_, counts);
+    return other_;
 }
 
 void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& look) {
@@ -269,10 +285,12 @@ void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& loo
     slot.counts.planting_error_px = std::max(slot.images_error_px, slot.counts.plants.error_px);
     slot.counts.predicted_error_px = std::max(slot.cut.predicted_error_px, slot.counts.planting_error_px);
     slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes;
+    FrameOptions options = options_;
+    options.samples = target.samples();
     if (splats_)
-        splat(slot);
+        splat(slot, options);
     else
-        slot.counts.uploaded_bytes += composite_->take(slot.picture);
+        slot.counts.uploaded_bytes += composite_->take(picture_for(slot, options));
     composite_->draw(target, slot.camera, land_.drawing->haze_per_m(look));
 }
 

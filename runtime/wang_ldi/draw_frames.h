@@ -66,8 +66,9 @@ struct FrameCounts {
     double predicted_error_px = 0;         // of terrain and planting, the greater
 };
 
-// Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which gives the same
-// picture. A context must be current.
+// Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which shows the same from
+// the same eye: what is warped is warped anew for a target whose samples take other places of it than those of the options'
+// `samples`. A context must be current.
 class FrameDrawer {
   public:
     // Fails as ImageStore::open, Composite::make, Splats::make, describe_current_context and Field::of.
@@ -111,9 +112,11 @@ class FrameDrawer {
     FrameOptions field_options() const;
     void look_ahead(Slot& slot, double dt_s);
     void warp(Slot& slot);
+    void paint(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts);
+    const Warped& picture_for(const Slot& slot, const FrameOptions& options);
     bool is_warped_by_card() const;
     bool can_draw_plants() const;
-    void splat(Slot& slot);
+    void splat(Slot& slot, const FrameOptions& options);
     const StoredImage* image_at(uint64_t index) const;
     void wait();
 
@@ -133,6 +136,7 @@ class FrameDrawer {
     FieldList ahead_;
     std::optional<view::Camera> before_;  // the camera of the frame before
     std::vector<Error> faults_;
+    Warped other_;  // of the frame drawn last, for a target of other samples
     Slot slots_[2];
     size_t shown_ = 0;
     bool has_next_ = false;      // the other slot is warped, or being warped, for a picture that is not shown yet

@@ -42,12 +42,13 @@ void dispatch(uint32_t count) {
     glDispatchCompute(std::min(groups, kMostGroups), (groups + kMostGroups - 1) / kMostGroups, 1);
 }
 
-void set_view(const gl::Program& program, const view::Camera& camera) {
+void set_view(const gl::Program& program, const view::Camera& camera, uint32_t finer) {
     program.use();
     glUniform2i(program.at("size_px"), GLint(camera.width_px), GLint(camera.height_px));
-    Eye eye(camera);
+    Eye eye(camera, finer);
     glUniform2f(program.at("middle_px"), eye.middle_px.x, eye.middle_px.y);
     glUniform1f(program.at("near_m"), eye.near_m);
+    glUniform1i(program.at("most_splat_px"), eye.most_splat_px);
 }
 
 }  // namespace
@@ -103,8 +104,8 @@ void Splats::begin(uint32_t width_px, uint32_t height_px) {
 }
 
 void Splats::round(const gl::Program& images, const gl::Program& points, const std::vector<One>& draws, uint32_t point_count,
-                   const view::Camera& camera) const {
-    set_view(images, camera);
+                   const view::Camera& camera, uint32_t finer) const {
+    set_view(images, camera, finer);
     GLint draw_index = images.at("draw_index");
     for (size_t d = 0; d < draws.size(); ++d) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, draws[d].buffer);
@@ -112,17 +113,17 @@ void Splats::round(const gl::Program& images, const gl::Program& points, const s
         dispatch(draws[d].sample_count);
     }
     if (point_count == 0) return;
-    set_view(points, camera);
+    set_view(points, camera, finer);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, loose_.id());
     glUniform1ui(points.at("point_count"), point_count);
     dispatch(point_count);
 }
 
 SplatCounts Splats::draw(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-                         bool fills_holes, const FarImages* far, Composite& into) {
+                         bool fills_holes, const FarImages* far, Composite& into, uint32_t finer) {
     SplatCounts counts;
     let_go(image_at);
-    SplatLists lists = splat_lists_of(camera, field, list, image_at, far);
+    SplatLists lists = splat_lists_of(camera, field, list, image_at, far, finer);
     counts.images_missing = lists.images_missing, counts.samples = lists.points.size();
     std::vector<One> draws;
     for (size_t d = 0; d < lists.draws.size(); ++d) {
@@ -141,12 +142,12 @@ SplatCounts Splats::draw(const view::Camera& camera, const Field& field, const F
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, planes_.id());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, filled_.id());
     for (size_t r = 0; r < images_.size(); ++r) {
-        round(images_[r], points_[r], draws, uint32_t(lists.points.size()), camera);
+        round(images_[r], points_[r], draws, uint32_t(lists.points.size()), camera, finer);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     into.fit(camera.width_px, camera.height_px);
-    set_view(read_out_, camera);
-    glUniform1i(read_out_.at("fills_holes"), fills_holes ? 1 : 0);
+    set_view(read_out_, camera, finer);
+    glUniform1i(read_out_.at("widest_px"), fills_holes ? GLint(2 * finer) : 0);
     glBindImageTexture(0, into.colours(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
     glBindImageTexture(1, into.depths(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     glDispatchCompute((camera.width_px + 7) / 8, (camera.height_px + 7) / 8, 1);

@@ -33,9 +33,9 @@ class Splats {
     bool is_in_one_round() const { return is_in_one_round_; }
 
     // Draws into the composite, as by Composite::take; nothing is read back. Images are kept on the card as long as image_at has
-    // them.
+    // them. finer: as Eye's.
     SplatCounts draw(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-                     bool fills_holes, const FarImages* far, Composite& into);
+                     bool fills_holes, const FarImages* far, Composite& into, uint32_t finer = 1);
     uint64_t holes_filled() const;  // of the last picture; waits for it
     uint64_t bytes() const;         // of images on the card
 
@@ -54,7 +54,7 @@ class Splats {
     void let_go(const PreparedAt& image_at);
     void begin(uint32_t width_px, uint32_t height_px);
     void round(const gl::Program& images, const gl::Program& points, const std::vector<One>& draws, uint32_t point_count,
-               const view::Camera& camera) const;
+               const view::Camera& camera, uint32_t finer) const;
 
     bool is_in_one_round_ = false;
     std::vector<gl::Program> images_, points_;  // of each round

@@ -9,6 +9,7 @@ layout(local_size_x = 128) in;
 uniform ivec2 size_px;
 uniform vec2 middle_px;
 uniform float near_m;
+uniform int most_splat_px;
 )";
 
 // What a pixel keeps: how deep, as the bits of a number that is not negative, and of what is as deep the lowest colour. In two
@@ -40,7 +41,7 @@ void splat(precise vec3 at, precise float wide, uint own) {
     if (!(at.z >= near_m)) return;
     precise float nearness = 1.0 / at.z;
     precise float x = middle_px.x + at.x * nearness, y = middle_px.y - at.y * nearness;
-    int side = clamp(int(min(wide * nearness, 1e4) + 0.5), 1, 64);
+    int side = clamp(int(min(wide * nearness, 1e4) + 0.5), 1, most_splat_px);
     float reach = 0.5 * float(side - 1);
     if (!(abs(x) < 1e6 && abs(y) < 1e6)) return;
     ivec2 low = ivec2(floor(vec2(x - reach, y - reach))), high = min(low + side, size_px);
@@ -147,20 +148,20 @@ void main() {
 inline constexpr char kReadOut[] = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform ivec2 size_px;
-uniform bool fills_holes;
+uniform int widest_px;  // of holes that are filled; 0: none are
 layout(rgba8, binding = 0) writeonly uniform image2D shown;
 layout(r32f, binding = 1) writeonly uniform image2D shown_depth_m;
 layout(std430, binding = 5) buffer Counts { uint filled; };
 
 bool is_empty(ivec2 p) { return depth_of(p.y * size_px.x + p.x) == 0xffffffffu; }
-// How far something is from p along a step, 3 if it is not within 2 pixels.
+// How far something is from p along a step, 0 if it is not within what a hole may measure.
 int reach(ivec2 p, ivec2 step_) {
-    for (int n = 1; n <= 2; ++n) {
+    for (int n = 1; n <= widest_px; ++n) {
         ivec2 at = p + n * step_;
-        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size_px))) return 3;
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size_px))) return 0;
         if (!is_empty(at)) return n;
     }
-    return 3;
+    return 0;
 }
 bool is_farther(ivec2 a, ivec2 b) {
     int p = a.y * size_px.x + a.x, q = b.y * size_px.x + b.x;
@@ -170,7 +171,7 @@ bool is_farther(ivec2 a, ivec2 b) {
 bool is_closed(ivec2 p, ivec2 step_, out ivec2 by) {
     int back = reach(p, -step_), on = reach(p, step_);
     by = p - back * step_;
-    if (back == 3 || on == 3 || back + on > 3) return false;
+    if (back == 0 || on == 0 || back + on - 1 > widest_px) return false;
     ivec2 other = p + on * step_;
     if (depth_of(other.y * size_px.x + other.x) > depth_of(by.y * size_px.x + by.x)) by = other;
     return true;
@@ -179,7 +180,7 @@ bool is_closed(ivec2 p, ivec2 step_, out ivec2 by) {
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), from = p;
     if (any(greaterThanEqual(p, size_px))) return;
-    if (is_empty(p) && fills_holes && p.x > 0 && p.x + 1 < size_px.x) {
+    if (is_empty(p) && widest_px > 0 && p.x > 0 && p.x + 1 < size_px.x) {
         ivec2 beside, above;
         if (is_closed(p, ivec2(1, 0), beside) && is_closed(p, ivec2(0, 1), above)) {
             from = is_farther(beside, above) ? beside : above;

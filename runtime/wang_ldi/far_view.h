@@ -69,7 +69,7 @@ class FarView {
     double shrunk(double wide_m, const FarPlace& place) const {
         float depth_m = eye_.seen(glm::dvec3(place.middle_m, place.ground_m) - eye_.position_m).z;
         double wide_px = eye_.focal_px * wide_m / std::max(double(depth_m), double(eye_.near_m));
-        double side_px = std::clamp(std::floor(wide_px + 0.5), 1.0, double(kMostSplat_px));
+        double side_px = std::clamp(std::floor(wide_px + 0.5), 1.0, double(eye_.most_splat_px));
         return std::min(1.0, wide_px / side_px * (wide_px / side_px));
     }
     // How far a metre of ground away from the eye reaches up across its line of sight, 0..1.

@@ -35,6 +35,7 @@ FastColumns<hiding>::FastColumns(const Eye& eye, const ImageSet& set, const Prep
     row_.pixel_m = frame_.pixel_m, row_.step_m = frame_.step_m, row_.near_m = eye.near_m;
     row_.middle_px[0] = eye.middle_px.x, row_.middle_px[1] = eye.middle_px.y;
     row_.width_px = int32_t(canvas.width_px()), row_.height_px = int32_t(canvas.height_px());
+    row_.most_side = eye.most_splat_px;
     row_.stride = canvas.stride(), row_.origin = canvas.origin(), row_.nowhere = 0;
 }
 

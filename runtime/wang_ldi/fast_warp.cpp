@@ -74,10 +74,10 @@ struct FastWarp::Threads {
     std::vector<Canvas> canvases;
     std::vector<FastTools> tools;
 
-    void fit(unsigned count, const view::Camera& camera, bool uses_vectors) {
+    void fit(unsigned count, const Eye& eye, const view::Camera& camera, bool uses_vectors) {
         canvases.resize(count), tools.resize(count);
         for (unsigned t = 0; t < count; ++t) {
-            canvases[t].fit(camera.width_px, camera.height_px);
+            canvases[t].fit(camera.width_px, camera.height_px, eye.most_splat_px);
             tools[t].canvas = &canvases[t], tools[t].counts = {};
             tools[t].project = uses_vectors ? best_project_samples() : project_samples_anywhere;
         }
@@ -102,11 +102,12 @@ WarpCounts FastWarp::warp(const view::Camera& camera, const Field& field, const 
                           const FastOptions& options, Warped& picture, const FarImages* far) {
     picture.width_px = camera.width_px, picture.height_px = camera.height_px;
     picture.colours.resize(size_t(camera.width_px) * camera.height_px), picture.depth_m.resize(picture.colours.size());
-    threads_->fit(std::max(1u, thread_count()), camera, options.uses_vectors);
-    FastScene scene{Eye(camera), PictureBounds(camera), field, list, image_at, far, highest_step_m(*field.parts().images)};
+    Eye eye(camera, options.finer);
+    threads_->fit(std::max(1u, thread_count()), eye, camera, options.uses_vectors);
+    FastScene scene{eye, PictureBounds(camera), field, list, image_at, far, highest_step_m(*field.parts().images)};
     WarpCounts counts = options.hiding == Hiding::by_order ? threads_->draw<Hiding::by_order>(scene, picture)
                                                            : threads_->draw<Hiding::by_depth>(scene, picture);
-    holes_filled_ = options.fills_holes ? fill_holes(picture) : 0;
+    holes_filled_ = options.fills_holes ? fill_holes(picture, options.finer) : 0;
     return counts;
 }
 

@@ -19,6 +19,7 @@ struct FastOptions {
     Hiding hiding = Hiding::by_depth;
     bool fills_holes = true;   // as fill_holes
     bool uses_vectors = true;  // the widest that the processor has; false: those that every one has. Same picture
+    uint32_t finer = 1;        // as Eye's, 1..4
 };
 
 // Keeps canvases from picture to picture; one for each thread that draws at the same time.

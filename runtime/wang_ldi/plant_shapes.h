@@ -56,7 +56,7 @@ struct ShapeLevel {
 
 struct PlantShape {
     std::vector<ShapeLevel> levels;  // as the chain's
-    std::vector<Skin> skins;         // as the chain's surfaces
+    std::vector<Skin> skins;         // as shape_of was given
 };
 
 // Whether a processor draws it as OpenGL does: nothing of it moves, and no level is cards with pictures.

@@ -68,7 +68,7 @@ inline void project_eight(const RowFrame& row, const uint32_t* places, const uin
     across = chosen(is_drawn, across, Floats{}), down = chosen(is_drawn, down, Floats{});
     Floats width = wide * nearness;
     width = chosen(width < 1e4f, width, Floats{} + 1e4f) + 0.5f;
-    Ints side = greater(lesser(__builtin_convertvector(width, Ints), Ints{} + 64), Ints{} + 1);
+    Ints side = greater(lesser(__builtin_convertvector(width, Ints), Ints{} + row.most_side), Ints{} + 1);
     Floats half = 0.5f * __builtin_convertvector(side - 1, Floats);
     out.left = floor_of(across - half), out.top = floor_of(down - half), out.side = side;
     is_drawn &= (out.left < row.width_px) & (out.top < row.height_px) & (out.left + side > 0) & (out.top + side > 0);
@@ -89,7 +89,7 @@ struct LaneCounts {
 
 inline void count_eight(const RowFrame& row, const Eight& eight, const Ints& side, LaneCounts& counts) {
     counts.shown -= eight.is_shown, counts.drawn -= eight.is_drawn;
-    counts.least_side = lesser(counts.least_side, chosen(eight.is_drawn, side, Ints{} + 64));
+    counts.least_side = lesser(counts.least_side, chosen(eight.is_drawn, side, counts.least_side));
     counts.most_side = greater(counts.most_side, side & eight.is_drawn);
     Ints wide = lesser(eight.left + eight.side, Ints{} + row.width_px) - greater(eight.left, Ints{});
     Ints high = lesser(eight.top + eight.side, Ints{} + row.height_px) - greater(eight.top, Ints{});
@@ -98,7 +98,7 @@ inline void count_eight(const RowFrame& row, const Eight& eight, const Ints& sid
 
 inline void project_lanes(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
                           uint32_t count, const Projected& out, ProjectedCounts& counts) {
-    constexpr uint32_t kFlush = 1 << 18;  // samples: a lane counts 2^15 splats of 2^12 pixels
+    constexpr uint32_t kFlush = 1 << 17;  // samples: a lane counts 2^14 splats of 2^16 pixels
     LaneCounts lanes;
     lanes.least_side = Ints{} + counts.least_side, lanes.most_side = Ints{} + counts.most_side;
     const Ints lane{0, 1, 2, 3, 4, 5, 6, 7};

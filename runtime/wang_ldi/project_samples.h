@@ -11,21 +11,21 @@ struct RowFrame {
     float foot[3], east[3], up[3];  // as Eye::seen: of the row's western end, of a metre east, of a metre up
     float pixel_m, step_m, splat;   // splat: times the focal length, in metres, of a sample; or of a unit of `splats`
     float near_m, middle_px[2];
-    int32_t width_px, height_px;
-    int32_t stride, origin;  // pixel (x, y) is origin + y * stride + x, also left of and above the picture
-    int32_t nowhere;         // where splats go that are not drawn: of one pixel, but it may be painted as if wider
+    int32_t width_px, height_px, most_side;  // most_side: of splats, up to 256
+    int32_t stride, origin;                  // pixel (x, y) is origin + y * stride + x, also left of and above the picture
+    int32_t nowhere;  // where splats go that are not drawn: of one pixel, but it may be painted as if wider
 };
 
 // [count], and up to 8 more are written.
 struct Projected {
     int32_t* pixels;  // of the splat's left upper corner
-    int32_t* sides;   // of the splat, 1 .. 64
+    int32_t* sides;   // of the splat, 1 .. most_side
     float* depths_m;
 };
 
 struct ProjectedCounts {
-    uint64_t samples = 0, drawn = 0, pixels = 0;  // as WarpCounts
-    int32_t least_side = 64, most_side = 0;       // of those drawn
+    uint64_t samples = 0, drawn = 0, pixels = 0;    // as WarpCounts
+    int32_t least_side = INT32_MAX, most_side = 0;  // of those drawn
 };
 
 // places, splats: as PreparedLdi, readable for 8 more; splats: null if there are none. shown: for each column all bits or none,

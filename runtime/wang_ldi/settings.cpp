@@ -96,15 +96,21 @@ double geometry_to_m(const ImageSet& images, const FrameOptions& options) {
     return options.geometry_m > 0 ? options.geometry_m : images.cell.nearest_m;
 }
 
-view::Camera warped_camera(const FrameOptions& options, view::Camera camera) {
-    if (options.variant == Variant::paper) return camera;
+uint32_t warped_finer(const FrameOptions& options, const view::Camera& camera) {
+    if (options.variant == Variant::paper) return 1;
+    bool needs_middle = options.samples <= 1;
     uint32_t by_target = options.samples >= 4 ? 2 : 1, side = options.splat_samples > 0 ? options.splat_samples : by_target;
     auto is_too_large = [&] {
         bool is_wide = std::max(camera.width_px, camera.height_px) * side > kWidestFine_px;
         return is_wide || uint64_t(camera.width_px) * camera.height_px * side * side > kMostFine_px;
     };
     while (side > 1 && is_too_large()) --side;
-    camera.width_px *= side, camera.height_px *= side;
+    return needs_middle && side % 2 == 0 ? side - 1 : side;
+}
+
+view::Camera warped_camera(const FrameOptions& options, view::Camera camera) {
+    uint32_t finer = warped_finer(options, camera);
+    camera.width_px *= finer, camera.height_px *= finer;
     return camera;
 }
 

@@ -30,9 +30,10 @@ struct FrameOptions {
     bool is_exact = false;      // of own: warped as the paper's are, sample by sample, slowly
     bool fills_holes = true;    // of own, unless it is exact: small ones, as fill_holes
     bool widens_splats = true;  // of own: FieldOptions::widens_splats
-    // Of own: what is warped has so many samples along each side of a pixel, of which a target of several samples a pixel takes
-    // the one at each of them, so that splats cover a part of a pixel; 1..4, 0: 2 where `samples` are 4 or more, else 1. Fewer of
-    // large pictures (warped_camera).
+    // Of own: what is warped has so many samples along each side of a pixel, of which each sample of the target takes the one
+    // where it lies, so that splats cover a part of a pixel; 1..4, 0: 2 where `samples` are 4 or more, else 1. Into a target of
+    // one sample, which lies in a pixel's middle, an even number is warped as the odd one below. Fewer of large pictures
+    // (warped_finer).
     uint32_t splat_samples = 0;
     bool has_far = true;      // of own: textures and colours beyond the images; false: nothing is drawn there
     bool is_by_depth = true;  // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
@@ -58,8 +59,10 @@ void set(FrameOptions& options, std::string_view name, double value);
 // Up to where all tiles are drawn as geometry; 0: none.
 double geometry_to_m(const ImageSet& images, const FrameOptions& options);
 
-// The camera with as many pixels as are warped for its picture; of large pictures fewer than asked, so that they have at most
-// 8192 a side and 2^24 in all (128 MiB for each thread that warps), or the picture's own.
+// How many samples along each side of a pixel are warped for a camera's picture, and the camera with as many pixels; of large
+// pictures fewer than asked, so that they have at most 8192 a side and 2^24 in all (128 MiB for each thread that warps), or the
+// picture's own.
+uint32_t warped_finer(const FrameOptions& options, const view::Camera& camera);
 view::Camera warped_camera(const FrameOptions& options, view::Camera camera);
 
 // Of a camera's pictures, and textures of so many pixels a side.

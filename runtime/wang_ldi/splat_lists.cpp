@@ -26,8 +26,14 @@ class PointBrush {
 class ListMaker {
   public:
     ListMaker(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-              const FarImages* far, SplatLists& made)
-        : eye_(camera), bounds_(camera), field_(field), list_(list), image_at_(image_at), made_(made), brush_(made.points) {
+              const FarImages* far, uint32_t finer, SplatLists& made)
+        : eye_(camera, finer),
+          bounds_(camera),
+          field_(field),
+          list_(list),
+          image_at_(image_at),
+          made_(made),
+          brush_(made.points) {
         if (far != nullptr) far_.emplace(eye_, bounds_, field, *far, brush_);
         for (const Level& level : field.parts().images->levels)
             highest_step_m_ = std::max(highest_step_m_, double(level.height_step_m));
@@ -108,9 +114,9 @@ class ListMaker {
 }  // namespace
 
 SplatLists splat_lists_of(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-                          const FarImages* far) {
+                          const FarImages* far, uint32_t finer) {
     SplatLists made;
-    ListMaker maker(camera, field, list, image_at, far, made);
+    ListMaker maker(camera, field, list, image_at, far, finer, made);
     for (const Item& item : list.items) maker.add(item);
     return made;
 }

@@ -40,9 +40,9 @@ struct SplatLists {
     uint64_t images_missing = 0;
 };
 
-// Of what may be on the picture. far: null: no far tiles.
+// Of what may be on the picture. far: null: no far tiles. finer: as Eye's.
 SplatLists splat_lists_of(const view::Camera& camera, const Field& field, const FieldList& list, const PreparedAt& image_at,
-                          const FarImages* far);
+                          const FarImages* far, uint32_t finer = 1);
 
 // A prepared image as the shaders have it: of each sample its place, and row + 65,536 (colour + 256 splat); then the palette.
 std::vector<uint32_t> splat_words(const PreparedLdi& image);

@@ -18,8 +18,8 @@ class FieldWarper {
 
   public:
     FieldWarper(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                const FarImages* far, Warped& picture)
-        : eye_(camera),
+                const FarImages* far, uint32_t finer, Warped& picture)
+        : eye_(camera, finer),
           bounds_(camera),
           field_(field),
           list_(list),
@@ -105,13 +105,13 @@ void lay_over(const Warped& later, Warped& picture) {
 
 template <Hiding hiding>
 WarpCounts warp_list(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                     const FarImages* far, Warped& picture) {
+                     const FarImages* far, uint32_t finer, Warped& picture) {
     std::vector<size_t> ends = parts_of(field, list, thread_count());
     std::vector<Warped> others(ends.size() - 1);
     std::vector<WarpCounts> counts(ends.size());
     parallel_ranges(ends.size(), 1, [&](size_t part, size_t) {
         if (part > 0) others[part - 1].clear(picture.width_px, picture.height_px);
-        FieldWarper<hiding> warper(camera, field, list, image_at, far, part > 0 ? others[part - 1] : picture);
+        FieldWarper<hiding> warper(camera, field, list, image_at, far, finer, part > 0 ? others[part - 1] : picture);
         for (size_t i = part > 0 ? ends[part - 1] : 0; i < ends[part]; ++i) warper.draw(list.items[i]);
         counts[part] = warper.counts();
     });
@@ -124,9 +124,9 @@ WarpCounts warp_list(const view::Camera& camera, const Field& field, const Field
 }  // namespace
 
 WarpCounts warp_field(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                      Hiding hiding, Warped& picture, const FarImages* far) {
-    if (hiding == Hiding::by_order) return warp_list<Hiding::by_order>(camera, field, list, image_at, far, picture);
-    return warp_list<Hiding::by_depth>(camera, field, list, image_at, far, picture);
+                      Hiding hiding, Warped& picture, const FarImages* far, uint32_t finer) {
+    if (hiding == Hiding::by_order) return warp_list<Hiding::by_order>(camera, field, list, image_at, far, finer, picture);
+    return warp_list<Hiding::by_depth>(camera, field, list, image_at, far, finer, picture);
 }
 
 }  // namespace overlook::wang_ldi

@@ -15,8 +15,8 @@ namespace overlook::wang_ldi {
 // the pixels of its own alone; of images that fade, each place is shown by one. Textures and colours are drawn from `far`, on the
 // ground; without it they are left out, as is geometry. An image that is not
 // at hand is left out and counted. As the paper draws: the list of paper_options, by order. Same picture and counts with any
-// number of threads. Memory: a picture for each thread but one. O(samples + pixels written).
+// number of threads. finer: as Eye's. Memory: a picture for each thread but one. O(samples + pixels written).
 WarpCounts warp_field(const view::Camera& camera, const Field& field, const FieldList& list, const ImageAt& image_at,
-                      Hiding hiding, Warped& picture, const FarImages* far = nullptr);
+                      Hiding hiding, Warped& picture, const FarImages* far = nullptr, uint32_t finer = 1);
 
 }  // namespace overlook::wang_ldi

@@ -194,6 +194,33 @@ TEST_F(Frames, AreTheSameByTheGraphicsCard) {
     }
 }
 
+// Into a target of one sample a pixel comes what stands in pixels' middles, whatever the frame was warped for.
+TEST_F(Frames, DrawnAgainIntoATargetOfOtherSamplesShowTheSameFromTheSameEye) {
+    for (Warper warper : {Warper::processor, Warper::card})
+        for (bool is_pipelined : {false, true}) {
+            if (is_pipelined && warper == Warper::card) continue;  // it never is
+            FrameOptions one, four;
+            one.warper = four.warper = warper, one.is_pipelined = four.is_pipelined = is_pipelined, four.samples = 4;
+            auto single = frames(one, waiting()), multiple = frames(four, waiting());
+            auto middle = gl::Target::make(640, 480, 1), target = gl::Target::make(640, 480, 4);
+            ASSERT_TRUE(middle && target);
+            for (int frame = 0; frame < 3; ++frame) {
+                ASSERT_TRUE(single->decide(camera(frame), 0.1, 0) && multiple->decide(camera(frame), 0.1, 0));
+                single->draw(*middle, {});
+                ImageRgb8 expected = middle->read();
+                std::vector<float> depth = middle->read_depth();
+                multiple->draw(*target, {});
+                ImageRgb8 soft = target->read();
+                multiple->draw(*middle, {});
+                EXPECT_TRUE(middle->read().pixels == expected.pixels) << frame << is_pipelined;
+                EXPECT_TRUE(middle->read_depth() == depth) << frame << is_pipelined;
+                multiple->draw(*target, {});
+                EXPECT_TRUE(target->read().pixels == soft.pixels) << frame << is_pipelined;
+                EXPECT_FALSE(soft.pixels == expected.pixels);
+            }
+        }
+}
+
 TEST_F(Frames, HaveOthersInPlaceOfImagesThatAreOnTheirWay) {
     ImageStreaming late;
     late.settings.latency_frames = 3;

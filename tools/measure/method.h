@@ -54,7 +54,7 @@ struct Sources {
 };
 
 // One method with one setting. Frames come in the order of the flight, each once: first decide, then draw, then perhaps draw
-// again into other targets, which must give the same picture. A context must be current.
+// again into other targets, which must give the same picture, of their samples. A context must be current.
 class Method {
   public:
     virtual ~Method() = default;

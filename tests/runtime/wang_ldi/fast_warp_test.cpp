@@ -71,6 +71,32 @@ TEST(FastWarp, ShowsWhatTheExactWarperShows) {
     EXPECT_GT(samples, pixels);
 }
 
+// Before the eye plants have splats of more than 64 pixels of a finer picture.
+TEST(FastWarp, OfAFinerPictureSplatsAreAsWide) {
+    const FastField& test = hilly(true);
+    Field field = test.field(test.far_options());
+    FastWarp fast;
+    uint64_t coarse_px = 0, fine_px = 0, cut_px = 0;
+    for (view::Camera camera : cameras(test.ground)) {
+        camera.width_px = 160, camera.height_px = 120;
+        FieldList list = list_of(field, camera);
+        Warped coarse;
+        coarse_px += fast.warp(camera, field, list, test.at_hand(), {Hiding::by_depth, false}, coarse, &test.far).pixels_written;
+        camera.width_px *= 4, camera.height_px *= 4;
+        for (uint32_t finer : {1u, 4u}) {
+            Warped exact = empty_picture(camera), quick;
+            WarpCounts counts = warp_field(camera, field, list, test.all(), Hiding::by_depth, exact, &test.far, finer);
+            WarpCounts of_quick =
+                fast.warp(camera, field, list, test.at_hand(), {Hiding::by_depth, false, true, finer}, quick, &test.far);
+            EXPECT_LE(differing(exact, quick), exact.colours.size() / 100000) << finer;
+            EXPECT_EQ(of_quick.pixels_written, counts.pixels_written) << finer;
+            (finer == 1 ? cut_px : fine_px) += counts.pixels_written;
+        }
+    }
+    EXPECT_GT(fine_px, cut_px);
+    EXPECT_LT(fine_px, 16 * coarse_px) << "each is as wide as before or, where it filled a part of a pixel, narrower";
+}
+
 // Of widths and heights and places that are no multiples of eight too, and whatever is behind the eye or beside the picture.
 TEST(FastWarp, AllKindsOfVectorsGiveTheSameNumbers) {
     const FastField& test = hilly(true);
@@ -145,7 +171,7 @@ TEST(FastWarp, WhatIsNotAtHandIsCountedAndLeftOut) {
 
 // The same lanes that are drawn, with the same numbers, whichever the processor has.
 TEST(FastWarp, LanesBehindTheEyeOrNotShownAreNotDrawn) {
-    RowFrame row{{-15, 0, -1}, {6, 0, 0.5f}, {0, 100, 0}, 0.1f, 0.01f, 5, 0.1f, {50, 40}, 100, 80, 228, 64 * 228 + 64, 0};
+    RowFrame row{{-15, 0, -1}, {6, 0, 0.5f}, {0, 100, 0}, 0.1f, 0.01f, 5, 0.1f, {50, 40}, 100, 80, 64, 228, 64 * 228 + 64, 0};
     std::vector<uint32_t> places, shown(64, ~0u);
     for (uint32_t s = 0; s < 64 + 8; ++s) places.push_back(s % 64 | (s % 5) << 16);
     for (uint32_t s = 0; s < 64; s += 3) shown[s] = 0;

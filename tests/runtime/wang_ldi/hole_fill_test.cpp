@@ -26,9 +26,9 @@ std::vector<std::string> rows_of(const Warped& picture) {
         rows[p / picture.width_px] += picture.colours[p] == 0 ? '.' : char(picture.colours[p] & 0xff);
     return rows;
 }
-std::vector<std::string> filled(const std::vector<std::string>& rows) {
+std::vector<std::string> filled(const std::vector<std::string>& rows, uint32_t finer = 1) {
     Warped picture = picture_of(rows);
-    uint64_t count = fill_holes(picture), changed = 0;
+    uint64_t count = fill_holes(picture, finer), changed = 0;
     std::vector<std::string> after = rows_of(picture);
     for (size_t y = 0; y < rows.size(); ++y)
         for (size_t x = 0; x < rows[y].size(); ++x) {
@@ -49,6 +49,28 @@ TEST(HoleFill, ClosesOneAndTwoPixelsWithTheFartherOfWhatIsRound) {
     EXPECT_EQ(filled({"aaa", "a.b", "aca"}), (Rows{"aaa", "acb", "aca"}));
     EXPECT_EQ(filled({"aaaa", "b..c", "adaa"}), (Rows{"aaaa", "bdcc", "adaa"}));
     EXPECT_EQ(filled({"aaaa", "a..a", "a..a", "aeaa"}), (Rows{"aaaa", "aeaa", "aeaa", "aeaa"}));
+}
+
+// Every letter finer x finer times.
+Rows enlarged(const Rows& rows, uint32_t finer) {
+    Rows large;
+    for (const std::string& row : rows) {
+        std::string wide;
+        for (char letter : row) wide.append(finer, letter);
+        large.insert(large.end(), finer, wide);
+    }
+    return large;
+}
+
+TEST(HoleFill, OfAFinerPictureClosesGapsOfAsManyPixelsOfThePicture) {
+    for (uint32_t finer : {2u, 3u, 4u}) {
+        for (const Rows& rows : {Rows{"aaa", "a.a", "aaa"}, Rows{"aaaa", "a..a", "a..a", "aeaa"}}) {
+            Rows large = filled(enlarged(rows, finer), finer);
+            for (const std::string& row : large) EXPECT_EQ(row.find('.'), std::string::npos) << finer;
+        }
+        for (const Rows& rows : {Rows{"aaaaa", "a...a", "aaaaa"}, Rows{"aaa", "a..", "aaa"}, Rows{"a.a", "a.a", "a.a"}})
+            EXPECT_EQ(filled(enlarged(rows, finer), finer), enlarged(rows, finer)) << finer;
+    }
 }
 
 TEST(HoleFill, LeavesWhatIsWiderOrOpen) {

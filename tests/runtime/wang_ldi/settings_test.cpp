@@ -44,6 +44,7 @@ TEST(PlantingSettings, SplatsAreAsFineAsTheTargetUnlessSaid) {
     EXPECT_EQ(width_px(own, 4), 2u);
     EXPECT_EQ(width_px(with("splat-samples", 1), 4), 1u);
     EXPECT_EQ(width_px(with("splat-samples", 3), 1), 3u);
+    EXPECT_EQ(width_px(with("splat-samples", 2), 4), 2u);
     EXPECT_EQ(width_px(defaults_of(Variant::paper), 4), 1u);
     FrameOptions soft = own;
     soft.samples = 4;
@@ -58,6 +59,23 @@ TEST(PlantingSettings, SplatsAreAsFineAsTheTargetUnlessSaid) {
     EXPECT_EQ(warped_camera(soft, large).width_px, 2048u);
     soft.splat_samples = 4, large.width_px = 1600, large.height_px = 900;
     EXPECT_EQ(warped_camera(soft, large).width_px, 3 * large.width_px);
+}
+
+TEST(PlantingSettings, OfOneSampleAPixelTheMiddleOfAPixelIsTheMiddleOfASplatsPixel) {
+    for (uint32_t asked : {1u, 2u, 3u, 4u})
+        for (uint32_t width_px : {640u, 2100u, 2800u, 5000u}) {
+            FrameOptions options = with("splat-samples", asked);
+            view::Camera camera = on_hills();
+            camera.width_px = width_px;
+            uint32_t finer = warped_finer(options, camera);
+            EXPECT_EQ(finer % 2, 1u) << asked << " of " << width_px;
+            EXPECT_LE(finer, asked);
+            EXPECT_EQ(warped_camera(options, camera).width_px, finer * width_px);
+        }
+    view::Camera wide = on_hills();
+    wide.width_px = 2800;
+    EXPECT_EQ(warped_finer(with("splat-samples", 3), wide), 1u)
+        << "9,600 pixels are too many, and two times lie beside the middle";
 }
 
 TEST(PlantingSettings, OfWiderSamplesBeginLevelsNearer) {

@@ -95,9 +95,10 @@ double Guide::worth(const glm::dvec2& at_m, double heading_deg, double best) con
     glm::dvec2 to_sun(land_.images().to_sun);
     double lit = -kOfLight * glm::dot(to_sun, direction(heading_deg));
     double worth = 1 + kHighest + lit + horizon(at_m, heading_deg) - kCostOfSlopes * slope_ahead(at_m, heading_deg);
+    worth = std::max(worth, 0.0);
     if (worth <= best) return worth;
     double planted = planted_share(at_m, heading_deg);
-    return planted < kPlanted ? planted - 1 : std::max(worth, 0.0);
+    return planted < kPlanted ? planted - 1 : worth;
 }
 
 view::Camera Guide::camera(double ahead_m, double up_m, double turned_deg, double pitch_deg, uint32_t width_px,
@@ -120,7 +121,9 @@ view::Camera Guide::cleared(const view::Camera& camera) const {
         for (int x = 0; x < kSidesteps; ++x) {
             view::Camera beside = camera;
             glm::dvec2 at_m = glm::dvec2(camera.position_m) + step_m * glm::dvec2(x, y);
-            beside.position_m = {at_m, ground.height_m(at_m) + above_m};
+            double height_m = ground.height_m(at_m);
+            if (!std::isfinite(height_m) || !is_planted(at_m)) continue;
+            beside.position_m = {at_m, height_m + above_m};
             double nearest_m = kClear_m;
             for (const wang_ldi::PlantPlaces& model : wang_ldi::plants_in_sight(land_.planted(), beside, kClear_m))
                 for (const discrete::Placement& plant : model.placements)

@@ -35,7 +35,8 @@ class Guide {
     view::Camera camera(double ahead_m, double up_m, double turned_deg, double pitch_deg, uint32_t width_px,
                         uint32_t height_px) const;
 
-    // The camera within a tile from there, as high above the ground, where the nearest plant before the eye is farthest away.
+    // The camera within a tile from there, above planted ground and as high above it, where the nearest plant before the eye is
+    // farthest away; the camera itself if there is none such.
     view::Camera cleared(const view::Camera& camera) const;
 
     // Walking and driving at head height, rising, turning, looking down: `frames` of each, evenly over it.

@@ -160,8 +160,8 @@ Result<void> add_views(Land& land, const std::string& plants, const Guide& guide
     int n = 0;
     for (const View& view : kViews) {
         uint32_t width_px = is_valley && n == 0 ? asked.width_px * 3 / 2 : asked.width_px;
-        view::Camera camera =
-            guide.cleared(guide.camera(view.ahead_m, view.up_m, view.turned_deg, view.pitch_deg, width_px, asked.height_px));
+        view::Camera camera = guide.camera(view.ahead_m, view.up_m, view.turned_deg, view.pitch_deg, width_px, asked.height_px);
+        if (!(view.up_m > 0)) camera = guide.cleared(camera);
         Result<ImageRgb8> image = drawn(land.world, own, camera);
         if (!image) return tl::unexpected(image.error());
         int figure = is_valley && n == 0 ? 1 : 10;
