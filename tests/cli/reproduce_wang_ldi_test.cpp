@@ -55,6 +55,8 @@ class ReproduceWangLdi : public testing::Test {
                     "1",
                     "--direction-px",
                     "66",
+                    "--textures",
+                    "none",
                     "--farthest-m",
                     "16",
                     "--json"};
