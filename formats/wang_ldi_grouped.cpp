@@ -70,13 +70,6 @@ void add_colours(const Ldi& ldi, const GroupCounts& groups, uint32_t most, Group
 
 }  // namespace
 
-GroupCounts group_counts_of(uint64_t samples) {
-    constexpr uint64_t kFew = 1 << 11, kMany = 1 << 15;
-    if (samples < kFew) return {1, 2, 1, 1};
-    if (samples < kMany) return {4, 10, 4, 2};
-    return {8, 12, 8, 4};
-}
-
 GroupedBytes grouped_bytes_of(const ImageSet& set, uint32_t level, const Ldi& ldi) {
     size_t samples = ldi.heights.size();
     GroupCounts groups = group_counts_of(samples);

@@ -19,10 +19,15 @@ struct GroupCounts {
     uint32_t counts = 1, heights = 2;
     uint32_t colour_classes = 1, colour_bands = 1;  // colours have their product
 
-    uint32_t colours() const { return colour_classes * colour_bands; }
-    uint32_t all() const { return counts + heights + colours(); }
+    constexpr uint32_t colours() const { return colour_classes * colour_bands; }
+    constexpr uint32_t all() const { return counts + heights + colours(); }
 };
-GroupCounts group_counts_of(uint64_t samples);
+constexpr uint64_t kFewSamples = 1 << 11, kManySamples = 1 << 15;
+constexpr GroupCounts group_counts_of(uint64_t samples) {
+    if (samples < kFewSamples) return {1, 2, 1, 1};
+    if (samples < kManySamples) return {4, 10, 4, 2};
+    return {8, 12, 8, 4};
+}
 
 struct GroupedBytes {
     std::vector<std::byte> bytes;

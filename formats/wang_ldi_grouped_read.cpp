@@ -8,7 +8,11 @@ namespace {
 
 using namespace groups;
 
-constexpr uint32_t kMostGroups = 32;
+constexpr uint32_t kMostGroups = 32, kMostBands = 4;
+constexpr bool fits(const GroupCounts& groups) {
+    return std::max({groups.counts, groups.heights, groups.colours()}) <= kMostGroups && groups.colour_bands <= kMostBands;
+}
+static_assert(fits(group_counts_of(0)) && fits(group_counts_of(kFewSamples)) && fits(group_counts_of(kManySamples)));
 
 // Numbers by group, as GroupWriter has put them: false where a group has no more.
 class GroupReader {
@@ -106,14 +110,14 @@ class SampleReader {
     int before_ = 0;      // the lowest of the last pixel with samples
     bool is_at_the_top_;  // samples may be at 65,535 steps
     std::array<uint8_t, 257> classes_{};
-    std::array<uint32_t, 3> bands_from_;  // heights from which a next band begins
+    std::array<uint32_t, kMostBands - 1> bands_from_;  // heights from which a next band begins
 };
 
 SampleReader::SampleReader(const GroupCounts& groups, GroupReader& heights, GroupReader& colours, uint32_t most, Ldi& ldi)
     : groups_(groups), heights_(heights), colours_(colours), ldi_(ldi), is_at_the_top_(most == 65535) {
     for (int nearest = 0; nearest < 256 && !ldi.palette.empty(); ++nearest)
         classes_[size_t(nearest) + 1] = uint8_t(group_of_colour(groups, ldi, nearest, 0, most));
-    for (uint32_t band = 1; band <= 3; ++band)
+    for (uint32_t band = 1; band < kMostBands; ++band)
         bands_from_[band - 1] =
             band < groups.colour_bands ? (band * (most + 1) + groups.colour_bands - 1) / groups.colour_bands : ~0u;
 }

@@ -15,6 +15,12 @@ namespace overlook::wang_ldi {
 inline int64_t pixel_key(float depth_m, uint32_t colour) {
     return int64_t(uint64_t(std::bit_cast<uint32_t>(depth_m)) << 32 | colour);
 }
+inline float depth_of_key(int64_t key) {
+    return std::bit_cast<float>(uint32_t(uint64_t(key) >> 32));
+}
+inline uint32_t colour_of_key(int64_t key) {
+    return uint32_t(uint64_t(key));
+}
 
 class Canvas {
   public:

@@ -5,6 +5,7 @@
 
 #include "runtime/wang_ldi/brush.h"
 #include "runtime/wang_ldi/draw_splats_shaders.h"
+#include "runtime/wang_ldi/hole_fill.h"
 #include "runtime/wang_ldi/splat_lists.h"
 
 namespace overlook::wang_ldi {
@@ -147,7 +148,7 @@ SplatCounts Splats::draw(const view::Camera& camera, const Field& field, const F
     }
     into.fit(camera.width_px, camera.height_px);
     set_view(read_out_, camera, finer);
-    glUniform1i(read_out_.at("widest_px"), fills_holes ? GLint(2 * finer) : 0);
+    glUniform1i(read_out_.at("widest_px"), fills_holes ? GLint(kWidestHole_px * finer) : 0);
     glBindImageTexture(0, into.colours(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
     glBindImageTexture(1, into.depths(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     glDispatchCompute((camera.width_px + 7) / 8, (camera.height_px + 7) / 8, 1);

@@ -15,12 +15,6 @@ namespace {
 constexpr size_t kItemsAtOnce = 4;
 constexpr uint32_t kRowsAtOnce = 16;
 
-double highest_step_m(const ImageSet& set) {
-    float highest = 0;
-    for (const Level& level : set.levels) highest = std::max(highest, level.height_step_m);
-    return double(highest);
-}
-
 // Of two pixels, the later canvas's over the earlier's.
 template <Hiding hiding>
 int64_t over(int64_t earlier, int64_t later) {
@@ -40,9 +34,8 @@ void read_row(std::vector<Canvas>& canvases, uint32_t y, Warped& picture) {
     }
     for (uint32_t x = 0; x < picture.width_px; ++x) {
         bool is_something = first[x] != Canvas::kNothing;
-        colours[x] = is_something ? uint32_t(uint64_t(first[x])) : 0;
-        depths_m[x] =
-            is_something ? std::bit_cast<float>(uint32_t(uint64_t(first[x]) >> 32)) : std::numeric_limits<float>::infinity();
+        colours[x] = is_something ? colour_of_key(first[x]) : 0;
+        depths_m[x] = is_something ? depth_of_key(first[x]) : std::numeric_limits<float>::infinity();
         first[x] = Canvas::kNothing;
     }
 }

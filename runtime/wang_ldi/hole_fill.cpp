@@ -8,7 +8,6 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kWidest_px = 2;  // of the picture
 constexpr uint32_t kRowsAtOnce = 32;
 
 struct Filling {
@@ -57,7 +56,8 @@ void find_in_row(const Warped& picture, uint32_t y, uint32_t widest, std::vector
 uint64_t fill_holes(Warped& picture, uint32_t finer) {
     std::vector<std::vector<Filling>> found((picture.height_px + kRowsAtOnce - 1) / kRowsAtOnce);
     parallel_ranges(picture.height_px, kRowsAtOnce, [&](size_t begin, size_t end) {
-        for (size_t y = begin; y < end; ++y) find_in_row(picture, uint32_t(y), finer * kWidest_px, found[begin / kRowsAtOnce]);
+        for (size_t y = begin; y < end; ++y)
+            find_in_row(picture, uint32_t(y), finer * kWidestHole_px, found[begin / kRowsAtOnce]);
     });
     uint64_t filled = 0;
     for (const auto& band : found)

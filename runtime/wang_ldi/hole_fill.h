@@ -10,6 +10,8 @@
 
 namespace overlook::wang_ldi {
 
+constexpr uint32_t kWidestHole_px = 2;  // of the picture
+
 // A pixel where nothing is is a hole if, along its row and along its column, something is on both sides with 2 empty pixels
 // between at most: it lies in a gap of 2 x 2 pixels that is closed all round. It gets colour and depth of the farthest of those
 // four (the lower colour if two are as far), since through a hole one sees what is behind. A gap that is open to one side or

@@ -52,4 +52,10 @@ double widest_splat_m(const Field& field, const FieldList& list, const Item& ite
     return widest_m;
 }
 
+double highest_step_m(const ImageSet& images) {
+    float highest = 0;
+    for (const Level& level : images.levels) highest = std::max(highest, level.height_step_m);
+    return double(highest);
+}
+
 }  // namespace overlook::wang_ldi

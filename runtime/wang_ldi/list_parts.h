@@ -16,4 +16,7 @@ std::vector<size_t> parts_of(const Field& field, const FieldList& list, unsigned
 // themselves (at most 16 pixels of a level).
 double widest_splat_m(const Field& field, const FieldList& list, const Item& item);
 
+// The greatest step of height of any level: a sample may stand so much above what its tile says is highest.
+double highest_step_m(const ImageSet& images);
+
 }  // namespace overlook::wang_ldi

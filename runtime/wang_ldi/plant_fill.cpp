@@ -5,7 +5,8 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kLinearSteps = 8192;  // finer than a third of an 8-bit step everywhere
+constexpr uint32_t kLinearSteps = 8192;
+static_assert(12.92 * 255 / (kLinearSteps - 1) < 0.41, "of an 8-bit step, where the curve is steepest");
 
 std::array<uint8_t, kLinearSteps> encoded_table() {
     std::array<uint8_t, kLinearSteps> table{};
@@ -13,9 +14,8 @@ std::array<uint8_t, kLinearSteps> encoded_table() {
         table[i] = uint8_t(std::lround(255 * srgb_from_linear(double(i) / (kLinearSteps - 1))));
     return table;
 }
-const std::array<uint8_t, kLinearSteps> kEncoded = encoded_table();
 
-std::array<float, 64> door_table() {
+constexpr std::array<float, 64> door_table() {
     std::array<float, 64> table{};
     for (uint32_t i = 0; i < 64; ++i) {
         uint32_t x = (i ^ i >> 3) & 7, y = i >> 3, order = 0;
@@ -24,7 +24,7 @@ std::array<float, 64> door_table() {
     }
     return table;
 }
-const std::array<float, 64> kDoor = door_table();
+constexpr std::array<float, 64> kDoor = door_table();
 
 // Pictures repeat.
 inline uint32_t wrapped(int32_t at, uint32_t size) {
@@ -75,6 +75,7 @@ Four PlantFill::texel(const Skin::Level& level, float u, float v) {
 }
 
 uint32_t PlantFill::encoded(const Four& linear) {
+    static const std::array<uint8_t, kLinearSteps> kEncoded = encoded_table();
     auto byte = [&](int lane) {
         float at = std::max(0.0f, held(linear[lane], 1)) * (kLinearSteps - 1) + 0.5f;
         return uint32_t(kEncoded[size_t(at)]);

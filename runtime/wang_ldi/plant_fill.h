@@ -16,8 +16,8 @@ namespace overlook::wang_ldi {
 
 using Four = float __attribute__((vector_size(16)));
 
-constexpr int kCornerSteps = 256;      // of a pixel: where corners lie
-constexpr float kFarthest_px = 16000;  // from the picture's middle, as corners may lie
+constexpr int kCornerBits = 8, kCornerSteps = 1 << kCornerBits;  // of a pixel: where corners lie
+constexpr float kFarthest_px = 16000;                            // from the picture's middle, as corners may lie
 
 // From -most to most; -most of what is no number.
 inline float held(float v, float most) {
@@ -59,8 +59,8 @@ class PlantFill {
     PixelBox columns() const { return {left_, 0, right_, int(canvas_->height_px())}; }
     PixelBox box_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2) const {
         constexpr int kHalf = kCornerSteps / 2;
-        auto first = [](int32_t low) { return (low + kHalf - 1) >> 8; };
-        auto last = [](int32_t high) { return ((high - kHalf) >> 8) + 1; };
+        auto first = [](int32_t low) { return (low + kHalf - 1) >> kCornerBits; };
+        auto last = [](int32_t high) { return ((high - kHalf) >> kCornerBits) + 1; };
         return {std::max(left_, first(std::min({x0, x1, x2}))), std::max(0, first(std::min({y0, y1, y2}))),
                 std::min(right_, last(std::max({x0, x1, x2}))),
                 std::min(int(canvas_->height_px()), last(std::max({y0, y1, y2})))};
@@ -103,7 +103,7 @@ struct Edge {
         int64_t along = b.x - a.x, across = b.y - a.y;
         int64_t px = int64_t(x) * kCornerSteps + kCornerSteps / 2 - a.x, py = int64_t(y) * kCornerSteps + kCornerSteps / 2 - a.y;
         bool has_middle = across < 0 || (across == 0 && along > 0);
-        int64_t exact = along * py - across * px, whole = (exact - !has_middle) >> 8;
+        int64_t exact = along * py - across * px, whole = (exact - !has_middle) >> kCornerBits;
         return {whole, -across, along, float(exact - whole * kCornerSteps)};
     }
     // Of [from, to) pixels right of its own, those that are inside.

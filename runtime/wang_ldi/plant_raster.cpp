@@ -39,8 +39,8 @@ void read_row(Canvas& canvas, uint32_t y, Warped& picture) {
     int64_t* row = canvas.row(y);
     for (uint32_t x = 0; x < picture.width_px; ++x) {
         if (row[x] == Canvas::kNothing) continue;
-        float depth_m = std::bit_cast<float>(uint32_t(uint64_t(row[x]) >> 32));
-        if (depth_m < depths_m[x]) depths_m[x] = depth_m, colours[x] = uint32_t(uint64_t(row[x]));
+        float depth_m = depth_of_key(row[x]);
+        if (depth_m < depths_m[x]) depths_m[x] = depth_m, colours[x] = colour_of_key(row[x]);
         row[x] = Canvas::kNothing;
     }
 }

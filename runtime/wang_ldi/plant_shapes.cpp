@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "formats/caveclod_octahedral.h"
 #include "formats/srgb.h"
 #include "runtime/discrete/poses.h"
 
@@ -75,22 +76,11 @@ Skin::Level half_of(const Skin::Level& level) {
     });
 }
 
-glm::vec3 normal_of(const discrete::Vertex& vertex) {
-    auto share = [](int16_t v) { return std::max(float(v) / 32767, -1.0f); };
-    float x = share(vertex.normal[0]), y = share(vertex.normal[1]);
-    glm::vec3 normal(x, y, 1 - std::abs(x) - std::abs(y));
-    if (normal.z < 0) {
-        normal.x = (1 - std::abs(y)) * (x < 0 ? -1.0f : 1.0f);
-        normal.y = (1 - std::abs(x)) * (y < 0 ? -1.0f : 1.0f);
-    }
-    return glm::normalize(normal);
-}
-
 void add_vertex(const discrete::Chain& chain, const discrete::Vertex& vertex, bool has_normals, ShapeLevel& level) {
     glm::dvec3 at = discrete::position_m(chain, vertex);
     level.x_m.push_back(float(at.x)), level.y_m.push_back(float(at.y)), level.z_m.push_back(float(at.z));
     if (has_normals) {
-        glm::vec3 normal = normal_of(vertex);
+        glm::vec3 normal(caveclod::vector_of_octahedral(glm::dvec2(vertex.normal[0], vertex.normal[1]) / 32767.0));
         level.normals.push_back({normal.x, normal.y, normal.z});
     }
     const auto& c = vertex.colour;

@@ -32,11 +32,10 @@ class ListMaker {
           field_(field),
           list_(list),
           image_at_(image_at),
+          highest_step_m_(highest_step_m(*field.parts().images)),
           made_(made),
           brush_(made.points) {
         if (far != nullptr) far_.emplace(eye_, bounds_, field, *far, brush_);
-        for (const Level& level : field.parts().images->levels)
-            highest_step_m_ = std::max(highest_step_m_, double(level.height_step_m));
     }
 
     void add(const Item& item) {
@@ -105,10 +104,10 @@ class ListMaker {
     const Field& field_;
     const FieldList& list_;
     const PreparedAt& image_at_;
+    double highest_step_m_;
     SplatLists& made_;
     PointBrush brush_;
     std::optional<FarPainter<PointBrush>> far_;
-    double highest_step_m_ = 0;
 };
 
 }  // namespace

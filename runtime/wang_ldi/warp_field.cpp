@@ -24,9 +24,9 @@ class FieldWarper {
           field_(field),
           list_(list),
           image_at_(image_at),
+          highest_step_m_(highest_step_m(*field.parts().images)),
           brush_(eye_, PictureTarget<hiding>(picture), counts_) {
         if (far != nullptr) far_.emplace(eye_, bounds_, field, *far, brush_);
-        for (const Level& level : field.parts().images->levels) highest_step_m_ = std::max(highest_step_m_, level.height_step_m);
     }
 
     void draw(const Item& item) {
@@ -44,7 +44,7 @@ class FieldWarper {
 
   private:
     bool may_be_seen(const Item& item, const glm::dvec2& corner_m, double side_m) const {
-        double above_m = item.high_m + double(highest_step_m_);  // the highest sample may stand a step above
+        double above_m = item.high_m + highest_step_m_;  // the highest sample may stand a step above
         return bounds_.may_hold({corner_m, item.low_m}, {corner_m + side_m, above_m},
                                 eye_.focal_px * widest_splat_m(field_, list_, item));
     }
@@ -84,10 +84,10 @@ class FieldWarper {
     const Field& field_;
     const FieldList& list_;
     const ImageAt& image_at_;
+    double highest_step_m_;
     WarpCounts counts_;
     Painting brush_;
     std::optional<FarPainter<Painting>> far_;
-    float highest_step_m_ = 0;
 };
 
 // Of two pictures the one whose items come later in the list over the other.

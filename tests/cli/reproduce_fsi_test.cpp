@@ -33,7 +33,9 @@ class ReproduceFsi : public testing::Test {
 TEST_F(ReproduceFsi, LeavesThePapersFiguresAndAPage) {
     Ran ran = run(words());
     expect_done(ran);
-    EXPECT_NE(ran.err.find("pop index (of the worst tile, over its levels at rest), entering or leaving a transition"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("pop index (of the worst tile, over its levels at rest), entering or leaving a transition"),
+              std::string::npos)
+        << ran.err;
     for (const char* name :
          {"index.html", "sizes.csv", "films.csv", "ramps.csv", "charts/figure-2.gp", "charts/figure-8-simple.gp"})
         EXPECT_TRUE(std::filesystem::exists(folder_ / (std::string("out/") + name))) << name;

@@ -180,6 +180,7 @@ TEST(FsiTargets, AreOfTheFilmsAndOfFigure8) {
     std::vector<Target> targets = targets_of(made_flown());
     EXPECT_NEAR(*named(targets, "pop index").measured[1], 3, 1e-3);
     EXPECT_NEAR(*named(targets, "W on entering").measured[1], 2.5, 1e-6);
+    EXPECT_NEAR(*named(targets, "median W of a film").measured[1], 1, 1e-9);
     EXPECT_NEAR(*named(targets, "median W at rest").measured[1], 1, 1e-9);
     EXPECT_NEAR(*named(targets, "W of the frames of a change").measured[1], (3 + 7 * 2 + 5) / (21 + 8.0), 1e-9);
     EXPECT_NEAR(*named(targets, "triangles a frame").measured[1], 1.01, 1e-9);
