@@ -80,29 +80,16 @@ layout(std430, binding = 3) readonly buffer Draws { Draw draws[]; };
 layout(std430, binding = 4) readonly buffer Planes { Plane planes[]; };
 uniform uint draw_index;
 
-uvec2 plus(uvec2 a, uvec2 b) {
-    uint carry;
-    uint low = uaddCarry(a.x, b.x, carry);
-    return uvec2(low, a.y + b.y + carry);
+uint stirred(uint v) {
+    v = (v ^ v >> 16) * 0x85ebca6bu;
+    v = (v ^ v >> 13) * 0xc2b2ae35u;
+    return v ^ v >> 16;
 }
-uvec2 times(uvec2 a, uvec2 b) {
-    uint high, low;
-    umulExtended(a.x, b.x, high, low);
-    return uvec2(low, high + a.x * b.y + a.y * b.x);
-}
-uvec2 shifted(uvec2 v, int by) { return uvec2(v.x >> by | v.y << (32 - by), v.y >> by); }
-uvec2 mixed(uvec2 v) {
-    v = times(v ^ shifted(v, 30), uvec2(0x1ce4e5b9u, 0xbf58476du));
-    v = times(v ^ shifted(v, 27), uvec2(0x133111ebu, 0x94d049bbu));
-    return v ^ shifted(v, 31);
-}
-uint threshold(uvec2 number, uint stream, uint x, uint y) {
-    const uvec2 step_ = uvec2(0x7f4a7c15u, 0x9e3779b9u);
-    uvec2 h = mixed(plus(number, step_));
-    h = mixed(h ^ plus(uvec2(stream, 0u), step_));
-    h = mixed(plus(h, step_) ^ uvec2(x, 0u));
-    h = mixed(plus(h, plus(step_, plus(step_, step_))) ^ uvec2(y, 0u));
-    return h.y >> 24;
+// As FadeRow.
+uint threshold(uvec2 number, uint decides, uint column, uint row) {
+    const uint apart = 0x9e3779b1u;
+    uint of_row = stirred(stirred(stirred(number.y ^ decides) ^ number.x) ^ row * apart);
+    return stirred(of_row ^ column * apart) >> 24;
 }
 
 bool is_shown(Draw draw, uint column, uint row) {

@@ -2,7 +2,7 @@
 // drawn within a band, and a hash of each place decides for one of them, so that together they are whole.
 //
 // Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, sections 4 (rings and wedges, figure 7) and
-// 8 (blending, directional textures).
+// 8 (blending, directional textures); A. Appleby, MurmurHash3, 2011 (its last step of 32 bits, which every place is stirred by).
 #pragma once
 
 #include <cstdint>
@@ -83,15 +83,34 @@ inline Thresholds second_of(const Mix& mix) {
     return {kWhole - mix.second_share, kWhole};
 }
 
+// Every bit of `value` changes about half of those that come out; a bijection.
+constexpr uint32_t stirred(uint32_t value) {
+    value = (value ^ (value >> 16)) * 0x85ebca6bu;
+    value = (value ^ (value >> 13)) * 0xc2b2ae35u;
+    return value ^ (value >> 16);
+}
+// What decides at the places of a row: kWhole hashed values. tile: a number of the tile's own.
+enum class Decides : uint32_t { rungs = 0x7275, directions = 0x6469 };
+class FadeRow {
+  public:
+    FadeRow(uint64_t tile, Decides decides, uint32_t row)
+        : number_(stirred(stirred(stirred(uint32_t(tile >> 32) ^ uint32_t(decides)) ^ uint32_t(tile)) ^ row * kApart)) {}
+    uint32_t at(uint32_t column) const { return stirred(number_ ^ column * kApart) >> 24; }
+
+  private:
+    static constexpr uint32_t kApart = 0x9e3779b1u;
+    uint32_t number_;
+};
+
 // What decides at a pixel of an image, of side_px, between two rungs: of both rungs' images the coarser one's pixels decide, so
-// that what one leaves out the other shows. coarser_px <= side_px: pixels along its side. tile: a number of the tile's own.
+// that what one leaves out the other shows. coarser_px <= side_px: pixels along its side. tile: as of FadeRow.
 inline uint32_t rung_threshold(uint64_t tile, uint32_t column, uint32_t row, uint32_t side_px, uint32_t coarser_px) {
-    auto coarse = [&](uint32_t pixel) { return int64_t((uint64_t(2) * pixel + 1) * coarser_px / (uint64_t(2) * side_px)); };
-    return uint32_t(hash_of(tile, 0x7275, coarse(column), coarse(row)) >> 56);
+    auto coarse = [&](uint32_t pixel) { return uint32_t((uint64_t(2) * pixel + 1) * coarser_px / (uint64_t(2) * side_px)); };
+    return FadeRow(tile, Decides::rungs, coarse(row)).at(coarse(column));
 }
 // The same between two directions of one level.
 inline uint32_t direction_threshold(uint64_t tile, uint32_t column, uint32_t row) {
-    return uint32_t(hash_of(tile, 0x6469, column, row) >> 56);
+    return FadeRow(tile, Decides::directions, row).at(column);
 }
 
 }  // namespace overlook::wang_ldi

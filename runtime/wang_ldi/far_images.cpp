@@ -54,6 +54,9 @@ class PictureMaker {
                 picture_.first.push_back(uint32_t(picture_.samples.size()));
             }
         picture_.samples.shrink_to_fit();
+        picture_.by_need = picture_.samples;
+        std::stable_sort(picture_.by_need.begin(), picture_.by_need.end(),
+                         [](const FarSample& a, const FarSample& b) { return a.needs < b.needs; });
         return std::move(picture_);
     }
 
@@ -139,7 +142,7 @@ FarImages::FarImages(const TextureSet& textures)
 uint64_t FarImages::bytes() const {
     uint64_t bytes = pictures_.size() * sizeof(FarPicture) + means_.size() * sizeof(FarMean);
     for (const FarPicture& picture : pictures_)
-        bytes += picture.first.size() * sizeof(uint32_t) + picture.samples.size() * sizeof(FarSample);
+        bytes += picture.first.size() * sizeof(uint32_t) + 2 * picture.samples.size() * sizeof(FarSample);
     return bytes;
 }
 

@@ -39,6 +39,7 @@ struct FarPicture {
     float high_m = 0;                // of a texel's box, the mean of those that show something
     std::vector<uint32_t> first;     // [side_px^2 + 1] texel (column, row) has samples first[row * side_px + column] on
     std::vector<FarSample> samples;  // from the lowest up in a texel
+    std::vector<FarSample> by_need;  // the same, those that need least first
 };
 
 // All that is seen of a tile from a direction, as one box.

@@ -48,6 +48,13 @@ class FarPainter {
         size_t texel = size_t(row) * picture.side_px + column;
         draw_samples(picture, place, picture.first[texel], picture.first[texel + 1], share);
     }
+    // All of its texels that the tile's places show.
+    void draw_shown(const Shown& shown) {
+        const FarPicture& one = picture(shown);
+        FarPlace place = this->place();
+        Fades fades{Field::fade_number(item_->i, item_->j), item_->coarser_px, shown.by_rung, shown.by_direction};
+        draw_picture(one, place, share_of(one, place), fades);
+    }
 
   private:
     // A square of tiles: as one texel, or in strips, or its quarters, as the rung of its middle says and how flat it looks.
@@ -207,7 +214,7 @@ class FarPainter {
     }
     void draw_sample(const FarPicture& picture, const FarPlace& place, const FarSample& sample) {
         glm::dvec2 at_m = place.low_m + glm::dvec2(sample.x_m, sample.y_m);
-        double ground_m = ground_.height_m(at_m);
+        double ground_m = ground_.height_m(at_m, asked_);
         if (!std::isnan(ground_m)) put({at_m, ground_m + double(sample.height_m)}, double(picture.wide_m), sample.colour);
     }
     void put(const glm::dvec3& at_m, double wide_m, uint32_t colour) {
@@ -222,6 +229,7 @@ class FarPainter {
     const FarImages& far_;
     Brush& brush_;
     double tile_m_;
+    Ground::Asked asked_;
     const Item* item_ = nullptr;
     uint32_t coarsest_log2_ = 0;
     double widest_m_ = 0;
@@ -236,8 +244,10 @@ void FarPainter<Brush>::draw_picture(const FarPicture& picture, const FarPlace& 
         return by_direction.share() == kWhole || by_direction.contains(direction_threshold(number, column, row));
     };
     if (Brush::kIsByDepth) {
-        for (const FarSample& sample : picture.samples)
-            if (double(sample.needs) < share && is_shown(sample.column, sample.row)) draw_sample(picture, place, sample);
+        for (const FarSample& sample : picture.by_need) {
+            if (!(double(sample.needs) < share)) return;
+            if (is_shown(sample.column, sample.row)) draw_sample(picture, place, sample);
+        }
         return;
     }
     glm::dvec2 eye = (glm::dvec2(eye_.position_m) - place.low_m) / place.side_m;

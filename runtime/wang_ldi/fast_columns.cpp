@@ -1,6 +1,7 @@
 #include "runtime/wang_ldi/fast_columns.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace overlook::wang_ldi {
 namespace {
@@ -55,31 +56,56 @@ bool FastColumns<hiding>::may_show(uint32_t row, const Span& columns) const {
 
 template <Hiding hiding>
 void FastColumns<hiding>::draw_row(uint32_t row, const Span& columns, const uint32_t* shown) {
-    size_t pixel = size_t(row) * side_px;
-    uint32_t begin = ldi_.first[pixel + columns.from], end = ldi_.first[pixel + columns.to];
-    if (begin == end) return;
+    const uint32_t* first = first_of_row(row);
+    uint32_t begin = first[columns.from];
+    if (begin == first[columns.to]) return;
     glm::vec3 foot = frame_.corner + frame_.middle_m(row) * frame_.north;
     if (!is_inside && !may_be_seen(row, columns, foot)) return;
     copy(foot, row_.foot);
-    uint32_t most = hiding == Hiding::by_depth ? std::min(kAtOnce, end - begin) : end - begin;
+    const uint8_t* splats = ldi_.splats.empty() ? nullptr : ldi_.splats.data() + begin;
+    Samples all{ldi_.places.data() + begin, ldi_.colours.data() + begin, splats, first[columns.to] - begin};
+    if (shown != nullptr) all = those_shown(row, columns, shown);
+    uint32_t most = hiding == Hiding::by_depth ? std::min(kAtOnce, all.count) : all.count;
     if (tools_.pixels.size() < most + PreparedLdi::kPadding) {
         size_t size = most + PreparedLdi::kPadding;
         tools_.pixels.resize(size), tools_.sides.resize(size), tools_.depths_m.resize(size);
     }
     Projected projected{tools_.pixels.data(), tools_.sides.data(), tools_.depths_m.data()};
-    for (; begin < end; begin += most) {
-        uint32_t count = std::min(most, end - begin);
+    for (uint32_t from = 0; from < all.count; from += most) {
+        Samples samples = all.part(from, most);
         ProjectedCounts counts;
-        const uint8_t* splats = ldi_.splats.empty() ? nullptr : ldi_.splats.data() + begin;
-        tools_.project(row_, ldi_.places.data() + begin, splats, shown, count, projected, counts);
-        tools_.counts.samples += counts.samples, tools_.counts.samples_drawn += counts.drawn;
+        tools_.project(row_, samples.places, samples.splats, samples.count, projected, counts);
+        tools_.counts.samples += samples.count, tools_.counts.samples_drawn += counts.drawn;
         tools_.counts.pixels_written += counts.pixels;
         if (counts.drawn == 0) continue;
         if (hiding == Hiding::by_order)
             paint_towards(row, columns);
         else
-            paint(begin, begin + count, counts);
+            paint(samples, counts);
     }
+}
+
+// Moves together what the columns hold that are shown, without asking each of them: eight are copied, and stay if they are.
+template <Hiding hiding>
+typename FastColumns<hiding>::Samples FastColumns<hiding>::those_shown(uint32_t row, const Span& columns, const uint32_t* shown) {
+    constexpr uint32_t kAtATime = PreparedLdi::kPadding;
+    const uint32_t* first = first_of_row(row);
+    size_t size = first[columns.to] - first[columns.from] + 2 * kAtATime;
+    bool has_splats = !ldi_.splats.empty();
+    if (tools_.places.size() < size) tools_.places.resize(size), tools_.colours.resize(size), tools_.splats.resize(size);
+    uint32_t* places = tools_.places.data();
+    uint8_t *colours = tools_.colours.data(), *splats = tools_.splats.data();
+    uint32_t count = 0, from = first[columns.from];
+    for (uint32_t column = columns.from; column < columns.to; ++column) {
+        uint32_t to = first[column + 1], here = (to - from) & shown[column];
+        for (uint32_t done = 0; done == 0 || done < here; done += kAtATime) {
+            std::memcpy(places + count + done, ldi_.places.data() + from + done, kAtATime * sizeof(uint32_t));
+            std::memcpy(colours + count + done, ldi_.colours.data() + from + done, kAtATime);
+            if (has_splats) std::memcpy(splats + count + done, ldi_.splats.data() + from + done, kAtATime);
+        }
+        count += here, from = to;
+    }
+    return {places, colours, has_splats ? splats : nullptr, count};
 }
 
 // A row's samples lie in a rectangle that stands up: not if its corners are all behind one of the picture's sides.
@@ -101,42 +127,41 @@ bool FastColumns<hiding>::may_be_seen(uint32_t row, const Span& columns, const g
 }
 
 template <Hiding hiding>
-void FastColumns<hiding>::paint(uint32_t begin, uint32_t end, const ProjectedCounts& counts) {
-    if (counts.least_side != counts.most_side || counts.most_side > 4) return paint_uneven(begin, end);
+void FastColumns<hiding>::paint(const Samples& samples, const ProjectedCounts& counts) {
+    if (counts.least_side != counts.most_side || counts.most_side > 4) return paint_uneven(samples);
     switch (counts.most_side) {
         case 1:
-            return paint_even<1>(begin, end);
+            return paint_even<1>(samples);
         case 2:
-            return paint_even<2>(begin, end);
+            return paint_even<2>(samples);
         case 3:
-            return paint_even<3>(begin, end);
+            return paint_even<3>(samples);
         default:
-            return paint_even<4>(begin, end);
+            return paint_even<4>(samples);
     }
 }
 
 // Splats of one size; those that are not drawn are painted where nothing is seen.
 template <Hiding hiding>
 template <int side>
-void FastColumns<hiding>::paint_even(uint32_t begin, uint32_t end) {
+void FastColumns<hiding>::paint_even(const Samples& samples) {
     int64_t* keys = tools_.canvas->keys();
     ptrdiff_t stride = row_.stride;
     const uint32_t* palette = ldi_.palette.data();
-    const uint8_t* colours = ldi_.colours.data() + begin;
-    for (uint32_t k = 0; k < end - begin; ++k) {
-        int64_t key = pixel_key(tools_.depths_m[k], palette[colours[k]]);
+    for (uint32_t k = 0; k < samples.count; ++k) {
+        int64_t key = pixel_key(tools_.depths_m[k], palette[samples.colours[k]]);
         put_square<hiding>(keys + tools_.pixels[k], stride, side, key);
     }
 }
 
 template <Hiding hiding>
-void FastColumns<hiding>::paint_uneven(uint32_t begin, uint32_t end) {
-    for (uint32_t k = 0; k < end - begin; ++k) paint_one(k, begin + k);
+void FastColumns<hiding>::paint_uneven(const Samples& samples) {
+    for (uint32_t k = 0; k < samples.count; ++k) paint_one(k, samples.colours[k]);
 }
 
 template <Hiding hiding>
-inline void FastColumns<hiding>::paint_one(uint32_t projected, uint32_t sample) {
-    int64_t key = pixel_key(tools_.depths_m[projected], ldi_.palette[ldi_.colours[sample]]);
+inline void FastColumns<hiding>::paint_one(uint32_t projected, uint8_t colour) {
+    int64_t key = pixel_key(tools_.depths_m[projected], ldi_.palette[colour]);
     int64_t* pixel = tools_.canvas->keys() + tools_.pixels[projected];
     ptrdiff_t stride = row_.stride;
     switch (int side = tools_.sides[projected]; side) {
@@ -166,8 +191,8 @@ inline void FastColumns<hiding>::paint_column(uint32_t column, uint32_t row, uin
     double eye_steps = frame_.eye_steps(column, row);
     uint32_t below = end;
     while (below > first && !(double(ldi_.places[below - 1] >> 16) < eye_steps)) --below;
-    for (uint32_t s = first; s < below; ++s) paint_one(s - begin, s);
-    for (uint32_t s = end; s > below; --s) paint_one(s - 1 - begin, s - 1);
+    for (uint32_t s = first; s < below; ++s) paint_one(s - begin, ldi_.colours[s]);
+    for (uint32_t s = end; s > below; --s) paint_one(s - 1 - begin, ldi_.colours[s - 1]);
 }
 
 template class FastColumns<Hiding::by_order>;

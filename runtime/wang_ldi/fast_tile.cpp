@@ -7,38 +7,49 @@ namespace {
 
 constexpr Thresholds kAll;
 
+inline uint32_t all_bits(const Thresholds& by, uint32_t value) {
+    return value - by.from < by.to - by.from ? ~0u : 0u;
+}
+
 bool is_whole(const Columns& columns) {
     return columns.by_rung == kAll && columns.by_direction == kAll;
 }
 
 }  // namespace
 
-void TileFades::begin(uint64_t tile, uint32_t coarser_px) {
-    tile_ = tile, coarser_px_ = coarser_px;
-    by_rung_.clear();
-}
-
-const uint8_t* TileFades::rungs_of_row(uint32_t row, uint32_t side_px) {
-    uint32_t cells = coarser_px_;
-    if (by_rung_.empty())
-        for (uint32_t y = 0; y < cells; ++y)
-            for (uint32_t x = 0; x < cells; ++x) by_rung_.push_back(uint8_t(rung_threshold(tile_, x, y, cells, cells)));
-    return by_rung_.data() + size_t(cell_of(row, side_px, cells)) * cells;
-}
-
-void TileFades::mask(const Columns& columns, uint32_t row, const Span& span, const uint32_t* first,
-                     std::vector<uint32_t>& shown) {
+void TileFades::mask_rungs(const Columns& columns, uint32_t row, const Span& span, uint32_t* shown) {
     uint32_t side = columns.side_px, cells = coarser_px_;
-    shown.resize(side);
-    bool has_rungs = !(columns.by_rung == kAll), has_directions = !(columns.by_direction == kAll);
-    const uint8_t* by_rung = has_rungs ? rungs_of_row(row, side) : nullptr;
-    uint32_t cell = cell_of(span.from, side, cells);
-    for (uint32_t column = span.from; column < span.to; ++column) {
-        while (uint64_t(2 * column + 1) * cells >= uint64_t(2 * side) * (cell + 1)) ++cell;  // as cell_of
-        bool is_shown = first[column] != first[column + 1] && (!has_rungs || columns.by_rung.contains(by_rung[cell]));
-        if (is_shown && has_directions) is_shown = columns.by_direction.contains(direction_threshold(tile_, column, row));
-        shown[column] = is_shown ? ~0u : 0;
+    FadeRow fades(tile_, Decides::rungs, cell_of(row, side, cells));
+    Thresholds by = columns.by_rung;
+    if (side == cells) {
+        for (uint32_t column = span.from; column < span.to; ++column) shown[column] = all_bits(by, fades.at(column));
+        return;
     }
+    if (cell_of_column_.size() != side || cells_ != cells) {
+        cell_of_column_.resize(side), cells_ = cells;
+        for (uint32_t column = 0; column < side; ++column) cell_of_column_[column] = cell_of(column, side, cells);
+    }
+    are_cells_shown_.resize(cells);
+    uint32_t* of_cell = are_cells_shown_.data();
+    const uint32_t* cell_of_column = cell_of_column_.data();
+    uint32_t last = cell_of_column[span.to - 1];
+    for (uint32_t cell = cell_of_column[span.from]; cell <= last; ++cell) of_cell[cell] = all_bits(by, fades.at(cell));
+    for (uint32_t column = span.from; column < span.to; ++column) shown[column] = of_cell[cell_of_column[column]];
+}
+
+void TileFades::mask(const Columns& columns, uint32_t row, const Span& span, std::vector<uint32_t>& shown) {
+    shown.resize(std::max(shown.size(), size_t(columns.side_px)));
+    uint32_t* of_column = shown.data();
+    bool has_rungs = !(columns.by_rung == kAll);
+    if (has_rungs) mask_rungs(columns, row, span, of_column);
+    if (columns.by_direction == kAll) return;
+    FadeRow fades(tile_, Decides::directions, row);
+    Thresholds by = columns.by_direction;
+    if (!has_rungs) {
+        for (uint32_t column = span.from; column < span.to; ++column) of_column[column] = all_bits(by, fades.at(column));
+        return;
+    }
+    for (uint32_t column = span.from; column < span.to; ++column) of_column[column] &= all_bits(by, fades.at(column));
 }
 
 template <Hiding hiding>
@@ -74,6 +85,9 @@ void FastTile<hiding>::choose(const Item& item, const glm::dvec2& corner_m) {
             if (ldi == nullptr) continue;
             SplatRule rule{1, field.options().widens_splats};
             all_.push_back(&images_.emplace_back(scene_.eye, *field.parts().images, *ldi, rung.level, rule, corner_m, tools_));
+        } else if (rung.stage != Stage::geometry && far_ && hiding == Hiding::by_depth) {
+            far_->draw_shown(shown);
+            continue;
         } else if (rung.stage != Stage::geometry && far_) {
             all_.push_back(&textures_.emplace_back(*far_, far_->picture(shown)));
         } else {
@@ -94,10 +108,6 @@ void FastTile<hiding>::draw_half(const Item& item, const Half& half, const glm::
     if (hiding == Hiding::by_order && (all_.size() != 1 || images_.empty() || !is_whole(*all_[0])))
         return paint_piece(places, piece, all_);  // so that the order holds between images too
     for (FastColumns<hiding>& columns : images_) draw_rows(columns, piece, eye_share);
-    for (FarColumns<Painting>& columns : textures_) {
-        Columns* all[] = {&columns};
-        paint_piece(places, piece, all);
-    }
 }
 
 template <Hiding hiding>
@@ -110,7 +120,7 @@ void FastTile<hiding>::draw_rows(FastColumns<hiding>& columns, const Piece& piec
         uint32_t row = towards(j, eye_row, rows);
         Span span = columns_of(piece, row, side);
         if (span.is_empty() || (!all_shown && !columns.may_show(row, span))) continue;
-        if (!all_shown) fades_.mask(columns, row, span, columns.first_of_row(row), tools_.shown);
+        if (!all_shown) fades_.mask(columns, row, span, tools_.shown);
         columns.draw_row(row, span, all_shown ? nullptr : tools_.shown.data());
     }
 }

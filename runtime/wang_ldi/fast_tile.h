@@ -23,20 +23,22 @@ struct FastScene {
     double highest_step_m;  // of any level
 };
 
-// Which coarse cells of a tile show which rung, looked up once for all of its rows.
+// Which places of a tile are shown, row by row.
 class TileFades {
   public:
-    void begin(uint64_t tile, uint32_t coarser_px);
-    // Writes all bits for each of a row's columns that is shown, none for the others. first: of the row, as Ldi::first; columns
-    // without a sample are not decided.
-    void mask(const Columns& columns, uint32_t row, const Span& span, const uint32_t* first, std::vector<uint32_t>& shown);
+    void begin(uint64_t tile, uint32_t coarser_px) { tile_ = tile, coarser_px_ = coarser_px; }
+    // Writes all bits for each of a row's columns in the span that is shown, none for the others.
+    void mask(const Columns& columns, uint32_t row, const Span& span, std::vector<uint32_t>& shown);
 
   private:
-    const uint8_t* rungs_of_row(uint32_t row, uint32_t side_px);
+    void mask_rungs(const Columns& columns, uint32_t row, const Span& span, uint32_t* shown);
 
     uint64_t tile_ = 0;
     uint32_t coarser_px_ = 1;
-    std::vector<uint8_t> by_rung_;  // [coarser_px, coarser_px]; empty until they are asked for
+    // Of the images asked about last: which coarse cell each column lies in.
+    uint32_t cells_ = 0;
+    std::vector<uint32_t> cell_of_column_;
+    std::vector<uint32_t> are_cells_shown_;  // of a row
 };
 
 template <Hiding hiding>

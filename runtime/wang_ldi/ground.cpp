@@ -80,15 +80,22 @@ Ground::Cells Ground::cell(uint32_t column, uint32_t row) const {
 }
 
 double Ground::height_at(const glm::dvec2& grid) const {
-    if (!terrain_) return plain_height_m_;
+    Asked asked;
+    return terrain_ ? height_at(grid, asked) : plain_height_m_;
+}
+
+double Ground::height_at(const glm::dvec2& grid, Asked& asked) const {
     const terrain::Shape& shape = terrain_->shape;
-    auto column = uint32_t(std::clamp(std::floor(grid.x), 0.0, double(shape.width - 2)));
-    auto row = uint32_t(std::clamp(std::floor(grid.y), 0.0, double(shape.height - 2)));
+    auto column = uint32_t(std::clamp(grid.x, 0.0, double(shape.width - 2)));
+    auto row = uint32_t(std::clamp(grid.y, 0.0, double(shape.height - 2)));
+    if (column != asked.column || row != asked.row) {
+        auto height = [&](uint32_t i, uint32_t j) {
+            return terrain_->is_void(column + i, row + j) ? NAN : terrain_->height_m(column + i, row + j);
+        };
+        asked = {column, row, {height(0, 0), height(1, 0), height(0, 1), height(1, 1)}};
+    }
+    auto [h00, h10, h01, h11] = asked.corners_m;
     double x = std::clamp(grid.x - column, 0.0, 1.0), y = std::clamp(grid.y - row, 0.0, 1.0);
-    auto height = [&](uint32_t i, uint32_t j) {
-        return terrain_->is_void(column + i, row + j) ? NAN : terrain_->height_m(column + i, row + j);
-    };
-    double h00 = height(0, 0), h10 = height(1, 0), h01 = height(0, 1), h11 = height(1, 1);
     // The corner that the triangle's right angle is at, and its two neighbours along the row and along the column.
     double corner, along_row, along_column;
     if ((column + row) % 2 == 0) {

@@ -74,6 +74,12 @@ class Ground {
     const Rect& extent() const { return extent_; }
     // Where there is no ground: not a number; outside of the extent: as at its nearest place.
     double height_m(const glm::dvec2& at_m) const;
+    // A cell of the ground that was asked about, so that places near each other look its corners up once. Of one ground only.
+    struct Asked {
+        uint32_t column = std::numeric_limits<uint32_t>::max(), row = 0;
+        std::array<double, 4> corners_m{};  // north-west, north-east, south-west, south-east
+    };
+    double height_m(const glm::dvec2& at_m, Asked& asked) const { return terrain_ ? height_at(grid_of(at_m), asked) : plain_height_m_; }
 
     // Exactly the lowest and the highest, and the steepest of the triangles of all cells that it touches. Empty and not whole if
     // it is not inside the extent or touches a void. O(cells touched).
@@ -99,6 +105,7 @@ class Ground {
     Ground() = default;
     glm::dvec2 grid_of(const glm::dvec2& at_m) const;  // column and row
     double height_at(const glm::dvec2& grid) const;
+    double height_at(const glm::dvec2& grid, Asked& asked) const;
     Touched touched_by(const Rect& rect) const;
     Cells cell(uint32_t column, uint32_t row) const;
     template <class Visit>

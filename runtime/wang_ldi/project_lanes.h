@@ -44,7 +44,7 @@ inline int64_t sum_of(const Ints& lanes) {
 
 // Of eight samples.
 struct Eight {
-    Ints is_shown, is_drawn, left, top, side, pixels;
+    Ints is_there, is_drawn, left, top, side, pixels;
     Floats depth_m;
 };
 
@@ -61,7 +61,7 @@ inline void project_eight(const RowFrame& row, const uint32_t* places, const uin
         load(splat, splats);
         wide = row.splat * __builtin_convertvector(__builtin_convertvector(splat, Ints), Floats);
     }
-    Ints is_drawn = out.is_shown & (depth >= row.near_m);
+    Ints is_drawn = out.is_there & (depth >= row.near_m);
     depth = chosen(is_drawn, depth, Floats{} + 1.0f);
     Floats nearness = 1.0f / depth, across = row.middle_px[0] + right * nearness, down = row.middle_px[1] - up * nearness;
     is_drawn &= (across < 1e6f) & (across > -1e6f) & (down < 1e6f) & (down > -1e6f);
@@ -78,17 +78,16 @@ inline void project_eight(const RowFrame& row, const uint32_t* places, const uin
 
 // Counts of each lane; flushed before they can overflow.
 struct LaneCounts {
-    Ints shown{}, drawn{}, pixels{}, least_side, most_side;
+    Ints drawn{}, pixels{}, least_side, most_side;
 
     void flush(ProjectedCounts& counts) {
-        counts.samples += uint64_t(sum_of(shown)), counts.drawn += uint64_t(sum_of(drawn)),
-            counts.pixels += uint64_t(sum_of(pixels));
-        shown = drawn = pixels = Ints{};
+        counts.drawn += uint64_t(sum_of(drawn)), counts.pixels += uint64_t(sum_of(pixels));
+        drawn = pixels = Ints{};
     }
 };
 
 inline void count_eight(const RowFrame& row, const Eight& eight, const Ints& side, LaneCounts& counts) {
-    counts.shown -= eight.is_shown, counts.drawn -= eight.is_drawn;
+    counts.drawn -= eight.is_drawn;
     counts.least_side = lesser(counts.least_side, chosen(eight.is_drawn, side, counts.least_side));
     counts.most_side = greater(counts.most_side, side & eight.is_drawn);
     Ints wide = lesser(eight.left + eight.side, Ints{} + row.width_px) - greater(eight.left, Ints{});
@@ -96,17 +95,14 @@ inline void count_eight(const RowFrame& row, const Eight& eight, const Ints& sid
     counts.pixels += (wide * high) & eight.is_drawn;
 }
 
-inline void project_lanes(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
-                          uint32_t count, const Projected& out, ProjectedCounts& counts) {
+inline void project_lanes(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts) {
     constexpr uint32_t kFlush = 1 << 17;  // samples: a lane counts 2^14 splats of 2^16 pixels
     LaneCounts lanes;
     lanes.least_side = Ints{} + counts.least_side, lanes.most_side = Ints{} + counts.most_side;
     const Ints lane{0, 1, 2, 3, 4, 5, 6, 7};
     for (uint32_t s = 0; s < count; s += kLanes) {
         Eight eight;
-        eight.is_shown = lane < int32_t(count - s);
-        if (shown != nullptr)
-            for (uint32_t k = 0; k < kLanes; ++k) eight.is_shown[k] &= int32_t(shown[places[s + k] & 0xffffu]);
+        eight.is_there = lane < int32_t(count - s);
         project_eight(row, places + s, splats == nullptr ? nullptr : splats + s, eight);
         Ints side = chosen(eight.is_drawn, eight.side, Ints{} + 1);
         store(out.pixels + s, eight.pixels), store(out.sides + s, side), store(out.depths_m + s, eight.depth_m);

@@ -24,21 +24,17 @@ struct Projected {
 };
 
 struct ProjectedCounts {
-    uint64_t samples = 0, drawn = 0, pixels = 0;    // as WarpCounts
+    uint64_t drawn = 0, pixels = 0;                 // as WarpCounts
     int32_t least_side = INT32_MAX, most_side = 0;  // of those drawn
 };
 
-// places, splats: as PreparedLdi, readable for 8 more; splats: null if there are none. shown: for each column all bits or none,
-// or null if all are shown. What is not shown is not counted as a sample either.
-using ProjectSamples = void (*)(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
-                                uint32_t count, const Projected& out, ProjectedCounts& counts);
+// places, splats: as PreparedLdi, readable for 8 more; splats: null if there are none.
+using ProjectSamples = void (*)(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts);
 
 // For any processor of the kind this is compiled for.
-void project_samples_anywhere(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
-                              uint32_t count, const Projected& out, ProjectedCounts& counts);
+void project_samples_anywhere(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts);
 // For those with AVX2; where there are none such, the same as the other.
-void project_samples_avx2(const RowFrame& row, const uint32_t* places, const uint8_t* splats, const uint32_t* shown,
-                          uint32_t count, const Projected& out, ProjectedCounts& counts);
+void project_samples_avx2(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts);
 // The fastest that this processor has.
 ProjectSamples best_project_samples();
 

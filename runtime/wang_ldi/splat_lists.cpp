@@ -48,12 +48,13 @@ class ListMaker {
             if (far_ && item.texels_px > 0) far_->draw(item);
             return;
         }
+        if (far_) far_->begin(item);
         for (const Shown& shown : list_.shown_of(item)) {
             const Rung& rung = field_.ladder().rungs[shown.rung];
             if (rung.stage == Stage::ldi)
                 add_image(item, shown, rung.level, corner_m);
             else if (rung.stage != Stage::geometry && far_)
-                add_texture(item, shown);
+                far_->draw_shown(shown);
         }
     }
 
@@ -83,20 +84,6 @@ class ListMaker {
                 {frame.corner, frame.splat}, {frame.east, 0}, {frame.north, half.diagonal == Diagonal::falling ? 1 : 0}};
         }
         made_.draws.push_back(draw), made_.images.push_back(index);
-    }
-
-    // Of a tile that images give way to textures of, as paint_piece does it.
-    void add_texture(const Item& item, const Shown& shown) {
-        far_->begin(item);
-        const FarPicture& picture = far_->picture(shown);
-        FarPlace place = far_->place();
-        double share = far_->share_of(picture, place);
-        uint64_t number = Field::fade_number(item.i, item.j);
-        for (uint32_t row = 0; row < picture.side_px; ++row)
-            for (uint32_t column = 0; column < picture.side_px; ++column)
-                if (shown.by_rung.contains(rung_threshold(number, column, row, picture.side_px, item.coarser_px)) &&
-                    shown.by_direction.contains(direction_threshold(number, column, row)))
-                    far_->draw_texel(picture, place, share, column, row);
     }
 
     Eye eye_;
