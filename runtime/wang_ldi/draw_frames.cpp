@@ -179,11 +179,12 @@ void FrameDrawer::list_plants(Slot& slot) const {
 Result<void> FrameDrawer::list(Slot& slot, double dt_s) {
     uint64_t streamed_bytes = 0;
     faults_.clear();
+    slot.field->list(slot.camera, wanted_, scratch_);
     do {
         const std::vector<Error>& faults = store_->begin_frame();
         faults_.insert(faults_.end(), faults.begin(), faults.end());
         if (streaming_.waits && !faults_.empty()) return tl::unexpected(faults_.front());
-        slot.field->list(slot.camera, slot.list);
+        slot.list = wanted_;
         slot.counts.field = slot.list.counts;
         slot.counts.images = store_->take(*slot.field, slot.list);
         if (!streaming_.waits) look_ahead(slot, dt_s);
@@ -203,7 +204,7 @@ void FrameDrawer::look_ahead(Slot& slot, double dt_s) {
     if (way_m == glm::dvec3(0) && turn_deg == 0) return;
     view::Camera camera = moved(slot.camera, way_m);
     camera.heading_deg += std::clamp(turn_deg, -90.0, 90.0);
-    slot.field->list(camera, ahead_);
+    slot.field->list(camera, ahead_, scratch_);
     store_->look_ahead(*slot.field, ahead_);
 }
 

@@ -133,7 +133,8 @@ class FrameDrawer {
     RingImages rings_;
     FastWarp fast_;
     PlantRaster raster_;
-    FieldList ahead_;
+    FieldScratch scratch_;
+    FieldList wanted_, ahead_;  // were all images at hand, of this frame and of a later one
     std::optional<view::Camera> before_;  // the camera of the frame before
     std::vector<Error> faults_;
     Warped other_;  // of the frame drawn last, for a target of other samples

@@ -106,6 +106,7 @@ struct FieldCounts {
     double displacement_px = 0;  // no tile's sheared ground stands farther off the real one; infinite if it may be at the eye
 
     uint64_t cost() const { return samples + texels; }
+    void add(const FieldCounts& other);
 };
 
 struct FieldList {
@@ -116,6 +117,21 @@ struct FieldList {
 
     std::span<const Shown> shown_of(const Item& item) const { return {shown.data() + item.first_shown, item.shown_count}; }
     std::span<const Half> halves_of(const Item& item) const { return {halves.data() + item.first_half, item.half_count}; }
+    void clear() { items.clear(), shown.clear(), halves.clear(), counts = {}; }
+    void append(const FieldList& other);  // of the same field and camera, of what is nearer
+};
+
+// A tile in sight, or a block of tiles that is to be listed as one.
+struct Found {
+    int64_t i = 0, j = 0;
+    uint8_t log2 = 0;
+    Placement::Coverage coverage = Placement::Coverage::all;
+    double near_m = 0;  // of a block, as Field::distance_m of its nearest place
+};
+// What listing by several threads needs, kept from list to list.
+struct FieldScratch {
+    std::vector<Found> found;
+    std::vector<FieldList> parts;
 };
 
 // By what a place is shown.
@@ -133,6 +149,8 @@ class Field {
     // Replaces what is in the list, whose memory is kept. Same field, same camera, same list. Any thread.
     // O(tiles to where textures begin + log(distance to the horizon)).
     void list(const view::Camera& camera, FieldList& list) const;
+    // The same by as many threads as there are.
+    void list(const view::Camera& camera, FieldList& list, FieldScratch& scratch) const;
 
     const FieldParts& parts() const { return parts_; }
     const FieldOptions& options() const { return options_; }
@@ -165,6 +183,7 @@ class Field {
     double blocks_from_m_ = 0;  // nothing but textures and colours is shown from here on
     double reach_m_ = 0;        // nothing is
     friend class FieldWalk;
+    friend class FieldLister;
 };
 
 }  // namespace overlook::wang_ldi

@@ -1,101 +1,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/parallel.h"
 #include "runtime/view/box_error.h"
 #include "runtime/view/pixel_error.h"
-#include "runtime/wang_ldi/field.h"
+#include "runtime/wang_ldi/field_walk.h"
 #include "runtime/wang_ldi/tile_error.h"
 
 namespace overlook::wang_ldi {
-namespace {
 
-// The quarters of a square cut in its middle, from the one farthest behind the two cuts to the one the eye is over: 0 or 1
-// east and north.
-std::array<std::pair<int, int>, 4> quarters_towards(const glm::dvec2& eye, const glm::dvec2& middle) {
-    int near_x = eye.x >= middle.x, near_y = eye.y >= middle.y;
-    return {{{1 - near_x, 1 - near_y}, {1 - near_x, near_y}, {near_x, 1 - near_y}, {near_x, near_y}}};
-}
-
-// 0 inside.
-double distance_to(const Rect& rect, const glm::dvec2& at_m) {
-    return glm::length(at_m - glm::clamp(at_m, rect.low_m, rect.high_m));
-}
-
-int64_t tile_below(double at_tiles) {
-    return int64_t(std::floor(at_tiles));
-}
-
-}  // namespace
-
-// Through the tree of blocks, whose cuts are vertical: all that is behind a cut is drawn before all that is before it.
-class FieldWalk {
+// Lists what a walk found.
+class FieldLister {
   public:
-    FieldWalk(const Field& field, const view::Camera& camera, FieldList& list)
+    FieldLister(const Field& field, const view::Camera& camera, FieldList& list)
         : field_(field),
           images_(*field.parts_.images),
           placement_(*field.parts_.placement),
           list_(list),
           bound_(camera),
-          sides_(view::sides_of(camera)),
-          forward_(view::axes_of(camera).forward),
           eye_m_(camera.position_m),
           near_m_(camera.near_m),
           focal_px_(view::focal_px(camera)),
           secant_(view::corner_secant(camera)) {}
 
-    void run() {
-        double tile_m = images_.tile_m;
-        const Rect& extent = placement_.ground().extent();
-        glm::dvec2 eye(eye_m_), low = glm::max(extent.low_m, eye - field_.reach_m_) / tile_m;
-        glm::dvec2 high = glm::min(extent.high_m, eye + field_.reach_m_) / tile_m;
-        if (!(low.x < high.x && low.y < high.y)) return;
-        int64_t left = tile_below(low.x), right = tile_below(high.x), bottom = tile_below(low.y), top = tile_below(high.y);
-        uint8_t log2 = 0;
-        while ((int64_t(1) << log2) <= std::max(right - left, top - bottom)) ++log2;
-        // So that there are two roots each way at most.
-        glm::dvec2 cut = placement_.rect_of((right >> log2) << log2, (top >> log2) << log2).low_m;
-        for (auto [x, y] : quarters_towards(eye, cut)) {
-            int64_t i = (right >> log2) - 1 + x, j = (top >> log2) - 1 + y;
-            if (i >= left >> log2 && j >= bottom >> log2) visit(i * (int64_t(1) << log2), j * (int64_t(1) << log2), log2);
-        }
-    }
+    void add(const Found& found) { found.log2 == 0 ? list_tile(found) : list_block(found); }
 
   private:
-    void visit(int64_t i, int64_t j, uint8_t log2) {
-        int64_t tiles = int64_t(1) << log2;
-        Rect rect = placement_.rect_of(i, j, tiles);
-        (log2 == 0 ? list_.counts.tiles_tested : list_.counts.blocks_tested)++;
-        double ground_m = distance_to(rect, glm::dvec2(eye_m_));
-        if (ground_m >= field_.reach_m_) return;
-        GroundRange bound = placement_.ground().bound(rect);
-        if (bound.is_empty() || !is_in_sight(rect, bound)) return;
-        Placement::Coverage coverage = placement_.coverage(rect);
-        if (log2 == 0) return visit_tile(i, j, rect, coverage);
-        if (coverage == Placement::Coverage::none) return;
-        double near_m = field_.distance_m({ground_m, 0}, eye_m_.z - bound.high_m);
-        if (near_m >= field_.blocks_from_m_ && double(tiles) * images_.tile_m <= field_.options_.block_share * near_m)
-            return list_block(i, j, log2, rect, bound, coverage, near_m);
-        int64_t half = tiles / 2;
-        for (auto [x, y] : quarters_towards(glm::dvec2(eye_m_), (rect.low_m + rect.high_m) / 2.0))
-            visit(i + x * half, j + y * half, uint8_t(log2 - 1));
-    }
-
-    // Whether some of a rectangle with what is planted on it may be: a box behind one of the sides is not. Geometry reaches over
-    // its edges, images do not.
-    bool is_in_sight(const Rect& rect, const GroundRange& ground) const {
-        double over_m = field_.has_geometry_ ? field_.parts_.overhang_m : 0;
-        glm::dvec3 low = glm::dvec3(rect.low_m - over_m, ground.low_m + images_.low_m) - eye_m_;
-        glm::dvec3 high = glm::dvec3(rect.high_m + over_m, ground.high_m + images_.high_m) - eye_m_;
-        auto farthest = [&](const glm::dvec3& along) {
-            return std::max(along.x * low.x, along.x * high.x) + std::max(along.y * low.y, along.y * high.y) +
-                   std::max(along.z * low.z, along.z * high.z);
-        };
-        for (const glm::dvec3& side : sides_)
-            if (farthest(side) < 0) return false;
-        return farthest(forward_) >= near_m_;
-    }
-
-    void visit_tile(int64_t i, int64_t j, const Rect& rect, Placement::Coverage coverage) {
+    void list_tile(const Found& found) {
+        auto [i, j, log2, coverage, near_m] = found;
+        Rect rect = placement_.rect_of(i, j);
         Verdict verdict = coverage == Placement::Coverage::all ? Verdict::planted : placement_.verdict(i, j);
         ++list_.counts.tiles_by_verdict[size_t(verdict)];
         if (verdict != Verdict::planted) return;
@@ -115,8 +48,10 @@ class FieldWalk {
         list_.items.push_back(item);
     }
 
-    void list_block(int64_t i, int64_t j, uint8_t log2, const Rect& rect, const GroundRange& bound, Placement::Coverage coverage,
-                    double near_m) {
+    void list_block(const Found& found) {
+        auto [i, j, log2, coverage, near_m] = found;
+        Rect rect = placement_.rect_of(i, j, int64_t(1) << log2);
+        GroundRange bound = placement_.ground().bound(rect);
         Item item;
         item.i = i, item.j = j, item.tiles_log2 = log2;
         item.is_planted_throughout = coverage == Placement::Coverage::all;
@@ -268,14 +203,49 @@ class FieldWalk {
     const Placement& placement_;
     FieldList& list_;
     view::BoxErrorBound bound_;
-    std::array<glm::dvec3, 4> sides_;
-    glm::dvec3 forward_, eye_m_;
+    glm::dvec3 eye_m_;
     double near_m_, focal_px_, secant_;
 };
 
+void FieldCounts::add(const FieldCounts& other) {
+    for (auto of : {&FieldCounts::blocks_tested, &FieldCounts::tiles_tested, &FieldCounts::blocks_listed, &FieldCounts::tiles_listed,
+                    &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces, &FieldCounts::displaced_tiles,
+                    &FieldCounts::outside_cell, &FieldCounts::samples, &FieldCounts::texels})
+        this->*of += other.*of;
+    for (size_t v = 0; v < kVerdicts; ++v) tiles_by_verdict[v] += other.tiles_by_verdict[v];
+    samples_shown += other.samples_shown, displacement_px = std::max(displacement_px, other.displacement_px);
+}
+
+void FieldList::append(const FieldList& other) {
+    auto shown_before = uint32_t(shown.size()), halves_before = uint32_t(halves.size());
+    for (Item item : other.items) {
+        item.first_shown += shown_before, item.first_half += halves_before;
+        items.push_back(item);
+    }
+    shown.insert(shown.end(), other.shown.begin(), other.shown.end());
+    halves.insert(halves.end(), other.halves.begin(), other.halves.end());
+    counts.add(other.counts);
+}
+
 void Field::list(const view::Camera& camera, FieldList& list) const {
-    list.items.clear(), list.shown.clear(), list.halves.clear(), list.counts = {};
-    FieldWalk(*this, camera, list).run();
+    list.clear();
+    FieldLister lister(*this, camera, list);
+    FieldWalk(*this, camera).run(list.counts, [&](const Found& found) { lister.add(found); });
+}
+
+void Field::list(const view::Camera& camera, FieldList& list, FieldScratch& scratch) const {
+    constexpr size_t kAtOnce = 32;
+    list.clear(), scratch.found.clear();
+    FieldWalk(*this, camera).run(list.counts, [&](const Found& found) { scratch.found.push_back(found); });
+    size_t parts = (scratch.found.size() + kAtOnce - 1) / kAtOnce;
+    if (scratch.parts.size() < parts) scratch.parts.resize(parts);
+    parallel_ranges(scratch.found.size(), kAtOnce, [&](size_t begin, size_t end) {
+        FieldList& part = scratch.parts[begin / kAtOnce];
+        part.clear();
+        FieldLister lister(*this, camera, part);
+        for (size_t f = begin; f < end; ++f) lister.add(scratch.found[f]);
+    });
+    for (size_t part = 0; part < parts; ++part) list.append(scratch.parts[part]);
 }
 
 }  // namespace overlook::wang_ldi

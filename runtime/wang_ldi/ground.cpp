@@ -175,39 +175,66 @@ GroundRange Ground::bound(const Rect& rect) const {
     return range;
 }
 
-Sheared Ground::sheared(const Rect& rect, Diagonal diagonal) const {
+namespace {
+
+// With the heights of its corners: south-west, south-east, north-west, north-east.
+Sheared between_corners(const std::array<double, 4>& corners_m, const glm::dvec2& side, Diagonal diagonal) {
+    auto [sw, se, nw, ne] = corners_m;
+    if (diagonal == Diagonal::rising)
+        return {diagonal, {Plane{sw, {(ne - nw) / side.x, (nw - sw) / side.y}}, Plane{sw, {(se - sw) / side.x, (ne - se) / side.y}}}};
+    glm::dvec2 south_west((se - sw) / side.x, (nw - sw) / side.y), north_east((ne - nw) / side.x, (ne - se) / side.y);
+    return {diagonal, {Plane{sw, south_west}, Plane{nw + se - ne, north_east}}};
+}
+
+// How far its halves are from a height at such a place from its south-west corner, at most so far.
+void take(Sheared& sheared, const glm::dvec2& from_corner, const glm::dvec2& side, double height_m) {
+    glm::dvec2 share = from_corner / side;
+    const Plane& plane = sheared.halves[half_of(sheared.diagonal, share.x, share.y)];
+    double plane_m = plane.height_m + glm::dot(plane.slope, from_corner);
+    sheared.displacement_m = std::max(sheared.displacement_m, std::abs(height_m - plane_m));
+}
+
+}  // namespace
+
+// Both surfaces are straight between the places that are looked at, so that their distance is greatest at one of them.
+void Ground::displace(const Rect& rect, std::span<Sheared> all) const {
     auto corners = corners_of(rect);
     glm::dvec2 side = rect.high_m - rect.low_m;
-    double sw = height_m(corners[0]), se = height_m(corners[1]), nw = height_m(corners[2]), ne = height_m(corners[3]);
-    Sheared made;
-    made.diagonal = diagonal;
-    if (diagonal == Diagonal::rising) {
-        made.halves = {Plane{sw, {(ne - nw) / side.x, (nw - sw) / side.y}}, Plane{sw, {(se - sw) / side.x, (ne - se) / side.y}}};
-    } else {
-        glm::dvec2 south_west((se - sw) / side.x, (nw - sw) / side.y), north_east((ne - nw) / side.x, (ne - se) / side.y);
-        made.halves = {Plane{sw, south_west}, Plane{nw + se - ne, north_east}};
-    }
-    if (!terrain_) return made;
-    // Both surfaces are straight between these places, so that their distance is greatest at one of them.
     glm::dvec2 per_sample(terrain_->frame.metres_per_column, -terrain_->frame.metres_per_row);
-    auto take = [&](const glm::dvec2& grid) {
-        glm::dvec2 from_corner = grid * per_sample - rect.low_m, share = from_corner / side;
-        const Plane& plane = made.halves[half_of(diagonal, share.x, share.y)];
-        double plane_m = plane.height_m + glm::dot(plane.slope, from_corner);
-        made.displacement_m = std::max(made.displacement_m, std::abs(height_at(grid) - plane_m));
+    Asked asked;
+    auto take_all = [&](const glm::dvec2& grid) {
+        double height_m = height_at(grid, asked);
+        for (Sheared& one : all) take(one, grid * per_sample - rect.low_m, side, height_m);
     };
-    visit_samples_inside(rect, take);
-    auto [a, b] = diagonal == Diagonal::rising ? std::pair{0, 3} : std::pair{2, 1};
-    for (auto [from, to] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}, {a, b}})
-        visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]), take);
+    visit_samples_inside(rect, take_all);
+    for (auto [from, to] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}})
+        visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]), take_all);
+    for (Sheared& one : all) {
+        auto [from, to] = one.diagonal == Diagonal::rising ? std::pair{0, 3} : std::pair{2, 1};
+        visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]), [&](const glm::dvec2& grid) {
+            take(one, grid * per_sample - rect.low_m, side, height_at(grid, asked));
+        });
+    }
+}
+
+std::array<double, 4> Ground::corner_heights_m(const Rect& rect) const {
+    auto [sw, se, nw, ne] = corners_of(rect);
+    return {height_m(sw), height_m(se), height_m(nw), height_m(ne)};
+}
+
+Sheared Ground::sheared(const Rect& rect, Diagonal diagonal) const {
+    Sheared made = between_corners(corner_heights_m(rect), rect.high_m - rect.low_m, diagonal);
+    if (terrain_) displace(rect, {&made, 1});
     return made;
 }
 
 Sheared Ground::sheared(const Rect& rect) const {
-    Sheared rising = sheared(rect, Diagonal::rising);
-    if (rising.displacement_m == 0) return rising;
-    Sheared falling = sheared(rect, Diagonal::falling);
-    return falling.displacement_m < rising.displacement_m ? falling : rising;
+    std::array<double, 4> corners_m = corner_heights_m(rect);
+    glm::dvec2 side = rect.high_m - rect.low_m;
+    std::array<Sheared, 2> both{between_corners(corners_m, side, Diagonal::rising),
+                                between_corners(corners_m, side, Diagonal::falling)};
+    if (terrain_) displace(rect, both);
+    return both[1].displacement_m < both[0].displacement_m ? both[1] : both[0];
 }
 
 }  // namespace overlook::wang_ldi

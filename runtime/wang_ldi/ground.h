@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <span>
 
 #include "formats/terrain.h"
 #include "runtime/wang_ldi/pyramid.h"
@@ -108,6 +109,8 @@ class Ground {
     double height_at(const glm::dvec2& grid, Asked& asked) const;
     Touched touched_by(const Rect& rect) const;
     Cells cell(uint32_t column, uint32_t row) const;
+    std::array<double, 4> corner_heights_m(const Rect& rect) const;  // south-west, south-east, north-west, north-east
+    void displace(const Rect& rect, std::span<Sheared> all) const;    // measures how far each is displaced
     template <class Visit>
     void visit_samples_inside(const Rect& rect, const Visit& visit) const;
 

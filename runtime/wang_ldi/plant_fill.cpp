@@ -1,5 +1,7 @@
 #include "runtime/wang_ldi/plant_fill.h"
 
+#include <cstring>
+
 #include "formats/srgb.h"
 
 namespace overlook::wang_ldi {
@@ -34,7 +36,11 @@ inline uint32_t wrapped(int32_t at, uint32_t size) {
 }
 
 inline Four linear_of(const std::array<uint16_t, 4>& texel) {
-    return Four{float(texel[0]), float(texel[1]), float(texel[2]), float(texel[3])};
+    using Shorts = uint16_t __attribute__((vector_size(8)));
+    using Ints = int32_t __attribute__((vector_size(16)));
+    Shorts shorts;
+    std::memcpy(&shorts, texel.data(), sizeof shorts);
+    return __builtin_convertvector(__builtin_convertvector(shorts, Ints), Four);
 }
 
 }  // namespace

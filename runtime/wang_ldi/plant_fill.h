@@ -11,13 +11,11 @@
 
 #include "runtime/wang_ldi/canvas.h"
 #include "runtime/wang_ldi/plant_shapes.h"
+#include "runtime/wang_ldi/plant_sift.h"
 
 namespace overlook::wang_ldi {
 
 using Four = float __attribute__((vector_size(16)));
-
-constexpr int kCornerBits = 8, kCornerSteps = 1 << kCornerBits;  // of a pixel: where corners lie
-constexpr float kFarthest_px = 16000;                            // from the picture's middle, as corners may lie
 
 // From -most to most; -most of what is no number.
 inline float held(float v, float most) {
@@ -26,16 +24,16 @@ inline float held(float v, float most) {
 
 // On the picture.
 struct Corner {
-    int32_t x = 0, y = 0;  // steps from the left and the top
-    float nearness = 0;    // of its depth in metres
-    float u = 0, v = 0;    // on its skin
-    Four colour{};         // linear light, and opacity, that the skin is multiplied by
+    int32_t x, y;    // steps from the left and the top
+    float nearness;  // of its depth in metres
+    float u, v;      // on its skin
+    Four colour;     // linear light, and opacity, that the skin is multiplied by
 };
 
 // Its corners clockwise on the picture.
 struct Filled {
     std::array<Corner, 3> corners;
-    int64_t area = 0;  // twice its own, in steps; > 0
+    int64_t area;  // twice its own, in steps; > 0
 };
 // Steps along x times steps along y.
 inline int64_t area_of(const Corner& a, const Corner& b, const Corner& c) {
@@ -77,11 +75,14 @@ class PlantFill {
         return false;
     }
 
-    // lights(triangle): called before the first of its pixels is coloured, to give its corners their colours.
+    // lights(triangle): called before the first of its pixels is coloured, to give its corners their colours and their places on
+    // the skin; until then neither is read.
     template <class Lights>
     void draw(const Skin& skin, Filled& triangle, const PixelBox& box, const Lights& lights);
 
   private:
+    template <class Edge, class Lights>
+    void fill(const Skin& skin, Filled& triangle, const PixelBox& box, const Lights& lights);
     bool lets_through(int x, int y) const;
     static const Skin::Level& skin_level(const Skin& skin, const Filled& triangle);
     static Four texel(const Skin::Level& level, float u, float v);
@@ -92,34 +93,61 @@ class PlantFill {
     float share_ = 1;
 };
 
-// An edge function: at a pixel's middle at least 0 inside. Whole is exact, in steps times pixels; part is what it lacks, in steps
-// times steps.
-struct Edge {
+// An edge function: at a pixel's middle at least 0 inside. Steps: times pixels whole, of 64 bits, and what that lacks; or times
+// steps, of 32 bits, for triangles of few pixels, which lacks nothing.
+struct WideEdge {
     int64_t whole = 0, right = 0, down = 0;
     float part = 0;
 
     // From a to b, at pixel (x, y); what lies on it belongs to one of the two triangles beside it.
-    static Edge of(const Corner& a, const Corner& b, int x, int y) {
+    static WideEdge of(const Corner& a, const Corner& b, int x, int y) {
         int64_t along = b.x - a.x, across = b.y - a.y;
         int64_t px = int64_t(x) * kCornerSteps + kCornerSteps / 2 - a.x, py = int64_t(y) * kCornerSteps + kCornerSteps / 2 - a.y;
         bool has_middle = across < 0 || (across == 0 && along > 0);
         int64_t exact = along * py - across * px, whole = (exact - !has_middle) >> kCornerBits;
         return {whole, -across, along, float(exact - whole * kCornerSteps)};
     }
-    // Of [from, to) pixels right of its own, those that are inside.
-    void narrow(int& from, int& to) const {
-        if (right == 0) {
-            if (whole < 0) to = from;
-        } else if (right > 0) {
-            if (whole < 0) from = int(std::max<int64_t>(from, (-whole + right - 1) / right));
-        } else {
-            to = whole < 0 ? from : int(std::min<int64_t>(to, whole / -right + 1));
-        }
-    }
+    float exact(int64_t at) const { return float(at) * kCornerSteps + part; }
 };
+struct NarrowEdge {
+    int32_t whole = 0, right = 0, down = 0, lacks = 0;
+    static constexpr int kMost_px = 64;  // sides of the triangle's box
+
+    static NarrowEdge of(const Corner& a, const Corner& b, int x, int y) {
+        int32_t along = b.x - a.x, across = b.y - a.y;
+        int32_t px = x * kCornerSteps + kCornerSteps / 2 - a.x, py = y * kCornerSteps + kCornerSteps / 2 - a.y;
+        bool has_middle = across < 0 || (across == 0 && along > 0);
+        return {along * py - across * px - !has_middle, -across * kCornerSteps, along * kCornerSteps, !has_middle};
+    }
+    float exact(int32_t at) const { return float(at + lacks); }
+};
+
+// Of [from, to) pixels right of its own, those that are inside.
+template <class Edge>
+void narrow(const Edge& edge, int& from, int& to) {
+    if (edge.right == 0) {
+        if (edge.whole < 0) to = from;
+    } else if (edge.right > 0) {
+        if (edge.whole < 0) from = int(std::max<int64_t>(from, (-int64_t(edge.whole) + edge.right - 1) / edge.right));
+    } else {
+        to = edge.whole < 0 ? from : int(std::min<int64_t>(to, int64_t(edge.whole) / -int64_t(edge.right) + 1));
+    }
+}
 
 template <class Lights>
 void PlantFill::draw(const Skin& skin, Filled& triangle, const PixelBox& box, const Lights& lights) {
+    constexpr int32_t kMost = NarrowEdge::kMost_px * kCornerSteps;
+    const auto& [a, b, c] = triangle.corners;
+    auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
+    auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
+    if (high_x - low_x <= kMost && high_y - low_y <= kMost)
+        fill<NarrowEdge>(skin, triangle, box, lights);
+    else
+        fill<WideEdge>(skin, triangle, box, lights);
+}
+
+template <class Edge, class Lights>
+void PlantFill::fill(const Skin& skin, Filled& triangle, const PixelBox& box, const Lights& lights) {
     constexpr int kNarrow_px = 6;  // fewer are tried one by one
     auto& [a, b, c] = triangle.corners;
     Edge edges[3] = {Edge::of(b, c, box.left, box.top), Edge::of(c, a, box.left, box.top), Edge::of(a, b, box.left, box.top)};
@@ -128,16 +156,14 @@ void PlantFill::draw(const Skin& skin, Filled& triangle, const PixelBox& box, co
     for (int y = box.top; y < box.bottom; ++y) {
         int from = 0, to = box.right - box.left;
         if (to > kNarrow_px)
-            for (const Edge& edge : edges) edge.narrow(from, to);
-        int64_t e0 = edges[0].whole + from * edges[0].right, e1 = edges[1].whole + from * edges[1].right,
-                e2 = edges[2].whole + from * edges[2].right;
+            for (const Edge& edge : edges) narrow(edge, from, to);
+        auto e0 = edges[0].whole + from * edges[0].right, e1 = edges[1].whole + from * edges[1].right,
+             e2 = edges[2].whole + from * edges[2].right;
         int64_t* row = canvas_->row(uint32_t(y)) + box.left;
         for (int x = from; x < to; ++x, e0 += edges[0].right, e1 += edges[1].right, e2 += edges[2].right) {
             if ((e0 | e1 | e2) < 0) continue;
-            float w0 = (float(e0) * kCornerSteps + edges[0].part) * of_area * a.nearness;
-            float w1 = (float(e1) * kCornerSteps + edges[1].part) * of_area * b.nearness;
-            float w2 = (float(e2) * kCornerSteps + edges[2].part) * of_area * c.nearness;
-            float depth_m = 1 / (w0 + w1 + w2);
+            float w0 = edges[0].exact(e0) * of_area * a.nearness, w1 = edges[1].exact(e1) * of_area * b.nearness;
+            float w2 = edges[2].exact(e2) * of_area * c.nearness, depth_m = 1 / (w0 + w1 + w2);
             if (std::bit_cast<uint32_t>(depth_m) > uint32_t(uint64_t(row[x]) >> 32)) continue;
             if (share_ < 1 && !lets_through(box.left + x, y)) continue;
             if (level == nullptr) lights(triangle), level = &skin_level(skin, triangle);

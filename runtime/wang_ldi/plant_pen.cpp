@@ -68,67 +68,57 @@ bool PlantPen::is_hidden(const ShapeBunch& bunch) const {
 }
 
 void PlantPen::draw_bunch(const Skin& skin, const ShapeBunch& bunch) {
-    place(bunch);
-    for (uint32_t i = bunch.first_index; i < bunch.first_index + bunch.index_count; i += 3) {
-        const uint16_t* corners = level_->indices.data() + i;
-        uint8_t a = behind_[corners[0]], b = behind_[corners[1]], c = behind_[corners[2]];
-        if (a & b & c & ~kFar) continue;
-        if ((a | b | c) & (kNear | kFar))
-            draw_cut(skin, i);
+    PlacedVertices placed = place(bunch);
+    SiftFrame frame{left_, right_, int32_t(canvas_->height_px()), canvas_->stride(), canvas_->row(0)};
+    uint32_t count =
+        loops_.sift(frame, placed, level_->indices.data() + bunch.first_index, bunch.index_count / 3, kept_.data());
+    for (uint32_t n = 0; n < count; ++n) {
+        uint32_t index = bunch.first_index + 3u * (kept_[n] & ~kIsCut);
+        if (kept_[n] & kIsCut)
+            draw_cut(skin, index);
         else
-            draw_triangle(skin, i);
+            draw_triangle(skin, index);
     }
 }
 
 // All its vertices.
-void PlantPen::place(const ShapeBunch& bunch) {
+PlacedVertices PlantPen::place(const ShapeBunch& bunch) {
     first_vertex_ = bunch.first_vertex;
-    size_t count = bunch.vertex_count;
-    const float *x_m = level_->x_m.data() + first_vertex_, *y_m = level_->y_m.data() + first_vertex_,
-                *z_m = level_->z_m.data() + first_vertex_;
-    glm::mat3 turn = turn_;
-    glm::vec3 foot = foot_;
-    glm::vec2 middle = eye_.middle_px, size = eye_.middle_px * 2.0f;
-    float near_m = eye_.near_m;
-    for (size_t v = 0; v < count; ++v) {
-        float right = turn[0].x * x_m[v] + turn[1].x * y_m[v] + turn[2].x * z_m[v] + foot.x;
-        float up = turn[0].y * x_m[v] + turn[1].y * y_m[v] + turn[2].y * z_m[v] + foot.y;
-        float depth = turn[0].z * x_m[v] + turn[1].z * y_m[v] + turn[2].z * z_m[v] + foot.z;
-        bool is_near = !(depth >= near_m);
-        nearness_[v] = 1 / (is_near ? 1.0f : depth);
-        right *= nearness_[v], up *= nearness_[v];
-        bool is_far = !(std::abs(right) <= kFarthest_px) | !(std::abs(up) <= kFarthest_px);
-        float x = middle.x + right, y = middle.y - up;
-        unsigned sides =
-            unsigned(x < 0) * kLeft + unsigned(x > size.x) * kRight + unsigned(y < 0) * kAbove + unsigned(y > size.y) * kBelow;
-        behind_[v] = uint8_t(is_near ? unsigned(kNear) : sides + unsigned(is_far) * kFar);
-        bool has_place = !(is_far | is_near);
-        x = has_place ? x : 0.0f, y = has_place ? y : 0.0f;
-        float fx = x * kCornerSteps + 0.5f, fy = y * kCornerSteps + 0.5f;
-        auto ix = int32_t(fx), iy = int32_t(fy);
-        x_[v] = ix - (float(ix) > fx), y_[v] = iy - (float(iy) > fy);
+    VertexFrame frame{};
+    float* rows[3] = {frame.right, frame.up, frame.forward};
+    for (int row = 0; row < 3; ++row) {
+        for (int axis = 0; axis < 3; ++axis) rows[row][axis] = turn_[axis][row];
+        rows[row][3] = foot_[row];
     }
-    std::fill_n(is_lit_.begin(), count, uint8_t(0));
+    for (int k = 0; k < 2; ++k) frame.middle_px[k] = eye_.middle_px[k], frame.size_px[k] = 2 * eye_.middle_px[k];
+    frame.near_m = eye_.near_m;
+    PlacedVertices placed{x_.data(), y_.data(), nearness_.data(), behind_.data()};
+    loops_.place(frame, level_->x_m.data() + first_vertex_, level_->y_m.data() + first_vertex_,
+                 level_->z_m.data() + first_vertex_, bunch.vertex_count, placed);
+    std::fill_n(is_lit_.begin(), bunch.vertex_count, uint8_t(0));
+    return placed;
 }
 
 void PlantPen::draw_triangle(const Skin& skin, uint32_t index) {
     const uint16_t* v = level_->indices.data() + index;
     PixelBox box = fill_.box_of(x_[v[0]], y_[v[0]], x_[v[1]], y_[v[1]], x_[v[2]], y_[v[2]]);
-    if (box.is_empty()) return;
     Filled triangle;
-    for (size_t k = 0; k < 3; ++k) {
-        const auto& uv = level_->uvs[first_vertex_ + v[k]];
-        triangle.corners[k] = Corner{x_[v[k]], y_[v[k]], nearness_[v[k]], uv[0], uv[1]};
-    }
+    auto stand_at = [&](size_t corner, uint16_t vertex) {
+        triangle.corners[corner].x = x_[vertex], triangle.corners[corner].y = y_[vertex];
+        triangle.corners[corner].nearness = nearness_[vertex];
+    };
+    stand_at(0, v[0]), stand_at(1, v[1]), stand_at(2, v[2]);
     triangle.area = area_of(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
-    if (triangle.area == 0) return;
     bool sees_front = triangle.area < 0;  // downwards turns the other way
-    if (sees_front) std::swap(triangle.corners[1], triangle.corners[2]), triangle.area = -triangle.area;
+    if (sees_front) stand_at(1, v[2]), stand_at(2, v[1]), triangle.area = -triangle.area;
+    if (triangle.area == 0 || box.is_empty()) return;
     fill_.draw(skin, triangle, box, [&](Filled& filled) {
         int second = sees_front ? 2 : 1;
-        filled.corners[0].colour = colour(skin, index, 0, sees_front);
-        filled.corners[1].colour = colour(skin, index, second, sees_front);
-        filled.corners[2].colour = colour(skin, index, 3 - second, sees_front);
+        for (auto [at, from] : {std::pair(0, 0), {1, second}, {2, 3 - second}}) {
+            Corner& corner = filled.corners[size_t(at)];
+            corner.colour = colour(skin, index, from, sees_front);
+            corner.u = level_->uvs[first_vertex_ + v[from]][0], corner.v = level_->uvs[first_vertex_ + v[from]][1];
+        }
     });
 }
 

@@ -10,13 +10,14 @@
 #include "runtime/wang_ldi/plant_fill.h"
 #include "runtime/wang_ldi/plant_light.h"
 #include "runtime/wang_ldi/plant_shapes.h"
+#include "runtime/wang_ldi/plant_sift.h"
 
 namespace overlook::wang_ldi {
 
 class PlantPen {
   public:
     // All must outlive it.
-    PlantPen(const view::Camera& camera, const PlantLight& light) : eye_(camera), light_(light) {}
+    PlantPen(const view::Camera& camera, const PlantLight& light) : eye_(camera), light_(light), loops_(best_plant_loops()) {}
 
     // Columns [left, right) of the picture are drawn from now on.
     void begin(Canvas& canvas, int left, int right) { canvas_ = &canvas, left_ = left, right_ = right; }
@@ -24,9 +25,6 @@ class PlantPen {
     void draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, float share);
 
   private:
-    // Of a vertex: which sides of the picture it is behind, or that it is behind the near plane, and that it cannot be brought
-    // there.
-    enum Behind : uint8_t { kLeft = 1, kRight = 2, kAbove = 4, kBelow = 8, kNear = 16, kFar = 32 };
     // The light that a vertex sends, tinted, on the side of its normal and on the other.
     struct Lit {
         Four front{}, back{};
@@ -42,7 +40,7 @@ class PlantPen {
     bool may_be_seen(const ShapeBunch& bunch) const;
     bool is_hidden(const ShapeBunch& bunch) const;
     void draw_bunch(const Skin& skin, const ShapeBunch& bunch);
-    void place(const ShapeBunch& bunch);
+    PlacedVertices place(const ShapeBunch& bunch);
     void draw_triangle(const Skin& skin, uint32_t index);
     void draw_cut(const Skin& skin, uint32_t index);
     const Lit& lit(uint32_t vertex);
@@ -56,6 +54,7 @@ class PlantPen {
 
     Eye eye_;
     const PlantLight& light_;
+    const PlantLoops& loops_;
     PlantFill fill_;
     Canvas* canvas_ = nullptr;
     int left_ = 0, right_ = 0;
@@ -70,7 +69,9 @@ class PlantPen {
     static constexpr size_t kMostVertices = 3 * kMostInBunch;
     std::array<int32_t, kMostVertices> x_{}, y_{};  // as Corner
     std::array<float, kMostVertices> nearness_{};
-    std::array<uint8_t, kMostVertices> behind_{}, is_lit_{};
+    std::array<int32_t, kMostVertices> behind_{};
+    std::array<uint16_t, kMostInBunch> kept_{};
+    std::array<uint8_t, kMostVertices> is_lit_{};
     std::array<Lit, kMostVertices> lit_{};
 };
 

@@ -114,6 +114,16 @@ TEST(FieldWalk, IsTheSameListOnAnyMachine) {
     FieldList list = list_of(field, head_camera({600, -500, test.ground.height_m({600, -500}) + 1.7}, 77));
     EXPECT_GT(list.items.size(), 300u);
     EXPECT_EQ(digest(list), 6749596835679538243u);
+    FieldList by_threads;
+    FieldScratch scratch;
+    for (int times = 0; times < 2; ++times) {
+        field.list(head_camera({600, -500, test.ground.height_m({600, -500}) + 1.7}, 77), by_threads, scratch);
+        EXPECT_EQ(digest(by_threads), digest(list));
+        EXPECT_EQ(by_threads.counts.cost(), list.counts.cost());
+        EXPECT_EQ(by_threads.counts.tiles_tested, list.counts.tiles_tested);
+        EXPECT_EQ(by_threads.counts.tiles_listed, list.counts.tiles_listed);
+        EXPECT_EQ(by_threads.counts.pieces, list.counts.pieces);
+    }
 }
 
 }  // namespace
