@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -48,12 +49,18 @@ void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t
     work();
     for (std::thread& thread : others) thread.join();
 }
+void parallel_both(const std::function<void()>& one, const std::function<void()>& other) {
+    parallel_ranges(2, 1, [&](size_t which, size_t) { which == 0 ? one() : other(); });
+}
 #else
 void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
     if (count == 0) return;
     grain = std::max<size_t>(1, grain);
     size_t ranges = (count + grain - 1) / grain;
     tbb::parallel_for(size_t(0), ranges, [&](size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); });
+}
+void parallel_both(const std::function<void()>& one, const std::function<void()>& other) {
+    tbb::parallel_invoke(one, other);
 }
 #endif
 

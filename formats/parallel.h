@@ -15,6 +15,10 @@ unsigned thread_count();
 // body must not throw.
 void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
 
+// Runs both, at the same time where there are threads for it; what they share among threads is shared between all. They must not
+// throw.
+void parallel_both(const std::function<void()>& one, const std::function<void()>& other);
+
 // Runs it so that libraries which it calls, and which share work among threads by themselves, have one thread there.
 void by_one_thread(const std::function<void()>& body);
 

@@ -119,15 +119,13 @@ Result<void> FrameDrawer::decide(const view::Camera& camera, double dt_s, double
     bool is_late = options_.is_pipelined && !splats_ && fits;
     if (Result<void> prepared = prepare(camera, dt_s, morph, slots_[next]); !prepared) return prepared;
     before_ = camera;
-    if (!is_late) {
-        warp(slots_[next]);
-        shown_ = next, has_next_ = false;
-        slots_[shown_].counts.latency_frames = 0;
-        return {};
-    }
-    warping_ = std::async(std::launch::async, [this, next] { warp(slots_[next]); });
-    shown_ = ready, has_next_ = true;
-    slots_[shown_].counts.latency_frames = 1;
+    if (splats_)
+        slots_[next].picture.clear(0, 0);  // the card warps, and none is left of an earlier way
+    else
+        warping_ = std::async(std::launch::async,
+                              [this, &slot = slots_[next]] { paint(slot, options_, slot.picture, slot.counts); });
+    shown_ = is_late ? ready : next, has_next_ = is_late;
+    slots_[shown_].counts.latency_frames = is_late ? 1 : 0;
     return {};
 }
 
@@ -227,16 +225,20 @@ void FrameDrawer::splat(Slot& slot, const FrameOptions& options) {
     slot.counts.warp_ms = clock.elapsed_ms();
 }
 
-void FrameDrawer::warp(Slot& slot) {
-    if (splats_) {
-        slot.picture.clear(0, 0);  // the card has it, and none is left of an earlier way
-        return;
-    }
-    paint(slot, options_, slot.picture, slot.counts);
+// By the processor, as wide as the options warp it; plants that it draws at the same time.
+void FrameDrawer::paint(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts) {
+    if (!slot.counts.are_plants_by_processor) return paint_images(slot, options, picture, counts);
+    parallel_both(
+        [&] {
+            Clock clock;
+            raster_.draw(warped_camera(options, slot.camera), land_.plants->shapes(), land_.plants->light(), slot.plants);
+            counts.plants_ms = clock.elapsed_ms();
+        },
+        [&] { paint_images(slot, options, picture, counts); });
+    raster_.lay_over(picture);
 }
 
-// By the processor, as wide as the options warp it.
-void FrameDrawer::paint(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts) {
+void FrameDrawer::paint_images(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts) {
     Clock clock;
     bool is_paper = options.variant == Variant::paper;
     view::Camera camera = warped_camera(options, slot.camera);
@@ -261,10 +263,6 @@ void FrameDrawer::paint(const Slot& slot, const FrameOptions& options, Warped& p
         counts.holes_filled = fast_.holes_filled();
     }
     counts.warp_ms = clock.elapsed_ms();
-    if (!slot.counts.are_plants_by_processor) return;
-    Clock of_plants;
-    raster_.draw(camera, land_.plants->shapes(), land_.plants->light(), slot.plants, picture);
-    counts.plants_ms = of_plants.elapsed_ms();
 }
 
 // The frame's own, or warped anew if these options take another.
@@ -283,6 +281,10 @@ void FrameDrawer::draw(const gl::Target& target, const terrain::DrawOptions& loo
     land_.drawing->draw(target, slot.cut, local, look);
     if (land_.plants != nullptr && !slot.counts.are_plants_by_processor)
         slot.counts.plants = land_.plants->draw(target, slot.camera, slot.plants, land_.drawing->haze_per_m(look));
+    if (!has_next_) {
+        glFlush();  // so that a renderer with threads of its own begins
+        wait();
+    }
     slot.counts.planting_error_px = std::max(slot.images_error_px, slot.counts.plants.error_px);
     slot.counts.predicted_error_px = std::max(slot.cut.predicted_error_px, slot.counts.planting_error_px);
     slot.counts.uploaded_bytes = land_.drawing->uploaded_bytes() + slot.counts.plants.uploaded_bytes;

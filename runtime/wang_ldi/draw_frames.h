@@ -111,8 +111,8 @@ class FrameDrawer {
     void list_plants(Slot& slot) const;
     FrameOptions field_options() const;
     void look_ahead(Slot& slot, double dt_s);
-    void warp(Slot& slot);
     void paint(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts);
+    void paint_images(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts);
     const Warped& picture_for(const Slot& slot, const FrameOptions& options);
     bool is_warped_by_card() const;
     bool can_draw_plants() const;
@@ -141,7 +141,7 @@ class FrameDrawer {
     Slot slots_[2];
     size_t shown_ = 0;
     bool has_next_ = false;      // the other slot is warped, or being warped, for a picture that is not shown yet
-    std::future<void> warping_;  // last: it uses the others
+    std::future<void> warping_;  // of the slot decided last; last: it uses the others
 };
 
 }  // namespace overlook::wang_ldi

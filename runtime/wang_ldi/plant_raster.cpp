@@ -51,9 +51,10 @@ PlantRaster::PlantRaster() : canvas_(std::make_unique<Canvas>()) {}
 PlantRaster::~PlantRaster() = default;
 
 void PlantRaster::draw(const view::Camera& camera, std::span<const PlantShape> shapes, const PlantLight& light,
-                       std::span<const PlantList> lists, Warped& picture) {
+                       std::span<const PlantList> lists) {
     std::vector<Task> tasks = tasks_of(camera, lists);
-    if (tasks.empty()) return;
+    is_empty_ = tasks.empty();
+    if (is_empty_) return;
     canvas_->fit(camera.width_px, camera.height_px);
     parallel_ranges(camera.width_px, kStrip_px, [&](size_t left, size_t right) {
         PlantPen pen(camera, light);
@@ -65,6 +66,11 @@ void PlantRaster::draw(const view::Camera& camera, std::span<const PlantShape> s
                      list.is_fading ? float(item.share) : 1);
         }
     });
+}
+
+void PlantRaster::lay_over(Warped& picture) {
+    if (is_empty_) return;
+    is_empty_ = true;
     parallel_ranges(picture.height_px, kRowsAtOnce, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y) read_row(*canvas_, uint32_t(y), picture);
     });

@@ -27,13 +27,16 @@ class PlantRaster {
     PlantRaster(const PlantRaster&) = delete;
     PlantRaster& operator=(const PlantRaster&) = delete;
 
-    // Draws over what the picture, which has the camera's size, shows, by depth: a pixel shows what its middle is in. Same
-    // picture with any number of threads. shapes: one a model. Memory: 8 bytes for each pixel, kept.
+    // Draws a picture of their own: a pixel shows what its middle is in. Same picture with any number of threads. shapes: one a
+    // model. Memory: 8 bytes for each pixel, kept.
     void draw(const view::Camera& camera, std::span<const PlantShape> shapes, const PlantLight& light,
-              std::span<const PlantList> lists, Warped& picture);
+              std::span<const PlantList> lists);
+    // Lays it over what another of the same size shows, by depth: of what is equally deep the other's stays. Once.
+    void lay_over(Warped& picture);
 
   private:
     std::unique_ptr<Canvas> canvas_;
+    bool is_empty_ = true;
 };
 
 }  // namespace overlook::wang_ldi

@@ -112,7 +112,9 @@ void draw(Plants& plants, bool fades, Both& both, double haze_per_m = 0) {
     both.by_opengl = target->read(), both.depth = target->read_depth();
     both.by_processor.clear(kWide, kHigh);
     ASSERT_EQ(plants.shapes().size(), 2u);
-    PlantRaster().draw(camera(), plants.shapes(), plants.light(), lists, both.by_processor);
+    PlantRaster raster;
+    raster.draw(camera(), plants.shapes(), plants.light(), lists);
+    raster.lay_over(both.by_processor);
 }
 
 // Outlines may be rounded to another pixel, light and pictures between pixels to another tone.

@@ -34,7 +34,9 @@ view::Camera camera(uint32_t width_px, uint32_t height_px) {
 Warped drawn(const Stand& stand, const std::vector<PlantPlaces>& places, const view::Camera& from) {
     Warped picture;
     picture.clear(from.width_px, from.height_px);
-    PlantRaster().draw(from, stand.shapes, {}, plant_lists(stand.forms, places, from, 1), picture);
+    PlantRaster raster;
+    raster.draw(from, stand.shapes, {}, plant_lists(stand.forms, places, from, 1));
+    raster.lay_over(picture);
     return picture;
 }
 
@@ -77,8 +79,10 @@ TEST(PlantRaster, NearerThingsHideFartherOnes) {
     // What the picture holds already is hidden and hides likewise.
     Warped held = near;
     for (size_t p = 0; p < held.colours.size(); ++p) held.colours[p] = 0xff123456, held.depth_m[p] = 7;
-    PlantRaster().draw(from, stand.shapes, {},
-                       plant_lists(stand.forms, std::vector<PlantPlaces>{{{{{0, 9, 0}}, {{0.9, 5, 0}}}, {1, 1}}}, from, 1), held);
+    PlantRaster raster;
+    raster.draw(from, stand.shapes, {},
+                plant_lists(stand.forms, std::vector<PlantPlaces>{{{{{0, 9, 0}}, {{0.9, 5, 0}}}, {1, 1}}}, from, 1));
+    raster.lay_over(held);
     EXPECT_EQ(held.depth_m[32 * 64 + 40], drawn(stand, {{{{{0.9, 5, 0}}}, {1}}}, from).depth_m[32 * 64 + 40]);
     EXPECT_EQ(held.colours[32 * 64 + 20], 0xff123456);
 }
