@@ -6,7 +6,8 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kAtOnce = 1024;  // samples between bringing and painting, few enough to stay near the processor
+constexpr uint32_t kKept = 1024;    // samples are brought to the picture when there are so many, if more come
+constexpr uint32_t kAtOnce = 256;  // and painted, so many that are beside each other
 
 template <Hiding hiding>
 inline void put(int64_t& pixel, int64_t key) {
@@ -31,20 +32,20 @@ FastColumns<hiding>::FastColumns(const Eye& eye, const ImageSet& set, const Prep
     side_px = ldi.side_px;
     eye_column_ = cell_at((eye.position_m.x - south_west_m.x) / set.tile_m, side_px);
     const Canvas& canvas = *tools.canvas;
-    row_ = {};
-    copy(frame_.up, row_.up);
-    row_.pixel_m = frame_.pixel_m, row_.step_m = frame_.step_m, row_.near_m = eye.near_m;
-    row_.middle_px[0] = eye.middle_px.x, row_.middle_px[1] = eye.middle_px.y;
-    row_.width_px = int32_t(canvas.width_px()), row_.height_px = int32_t(canvas.height_px());
-    row_.most_side = eye.most_splat_px;
-    row_.stride = canvas.stride(), row_.origin = canvas.origin(), row_.nowhere = 0;
+    on_plane_ = {};
+    copy(frame_.up, on_plane_.up);
+    on_plane_.pixel_m = frame_.pixel_m, on_plane_.step_m = frame_.step_m, on_plane_.near_m = eye.near_m;
+    on_plane_.middle_px[0] = eye.middle_px.x, on_plane_.middle_px[1] = eye.middle_px.y;
+    on_plane_.width_px = int32_t(canvas.width_px()), on_plane_.height_px = int32_t(canvas.height_px());
+    on_plane_.most_side = eye.most_splat_px;
+    on_plane_.stride = canvas.stride(), on_plane_.origin = canvas.origin(), on_plane_.nowhere = 0;
 }
 
 template <Hiding hiding>
 void FastColumns<hiding>::stand_on(const Plane& plane) {
     frame_.stand_on(eye_, plane);
-    copy(frame_.east, row_.east);
-    row_.splat = frame_.splat;
+    copy(frame_.corner, on_plane_.corner), copy(frame_.east, on_plane_.east), copy(frame_.north, on_plane_.north);
+    on_plane_.splat = frame_.splat;
 }
 
 template <Hiding hiding>
@@ -57,45 +58,56 @@ bool FastColumns<hiding>::may_show(uint32_t row, const Span& columns) const {
 template <Hiding hiding>
 void FastColumns<hiding>::draw_row(uint32_t row, const Span& columns, const uint32_t* shown) {
     const uint32_t* first = first_of_row(row);
-    uint32_t begin = first[columns.from];
-    if (begin == first[columns.to]) return;
-    glm::vec3 foot = frame_.corner + frame_.middle_m(row) * frame_.north;
-    if (!is_inside && !may_be_seen(row, columns, foot)) return;
-    copy(foot, row_.foot);
-    const uint8_t* splats = ldi_.splats.empty() ? nullptr : ldi_.splats.data() + begin;
-    Samples all{ldi_.places.data() + begin, ldi_.colours.data() + begin, splats, first[columns.to] - begin};
-    if (shown != nullptr) all = those_shown(row, columns, shown);
-    uint32_t most = hiding == Hiding::by_depth ? std::min(kAtOnce, all.count) : all.count;
-    if (tools_.pixels.size() < most + PreparedLdi::kPadding) {
-        size_t size = most + PreparedLdi::kPadding;
-        tools_.pixels.resize(size), tools_.sides.resize(size), tools_.depths_m.resize(size);
+    if (first[columns.from] == first[columns.to]) return;
+    if (!is_inside && !may_be_seen(row, columns, frame_.corner + frame_.middle_m(row) * frame_.north)) return;
+    make_room(first[columns.to] - first[columns.from]);
+    shown == nullptr ? add_all(row, columns) : add_shown(row, columns, shown);
+    if (hiding == Hiding::by_depth) {
+        if (tools_.count >= kKept) finish();
+        return;
     }
-    Projected projected{tools_.pixels.data(), tools_.sides.data(), tools_.depths_m.data()};
-    for (uint32_t from = 0; from < all.count; from += most) {
-        Samples samples = all.part(from, most);
-        ProjectedCounts counts;
-        tools_.project(row_, samples.places, samples.splats, samples.count, projected, counts);
-        tools_.counts.samples += samples.count, tools_.counts.samples_drawn += counts.drawn;
-        tools_.counts.pixels_written += counts.pixels;
-        if (counts.drawn == 0) continue;
-        if (hiding == Hiding::by_order)
-            paint_towards(row, columns);
-        else
-            paint(samples, counts);
-    }
+    ProjectedCounts counts = project(kept(0, tools_.count));
+    if (counts.drawn > 0) paint_towards(row, columns);
+    tools_.count = 0;
 }
 
-// Moves together what the columns hold that are shown, without asking each of them: eight are copied, and stay if they are.
 template <Hiding hiding>
-typename FastColumns<hiding>::Samples FastColumns<hiding>::those_shown(uint32_t row, const Span& columns, const uint32_t* shown) {
+void FastColumns<hiding>::finish() {
+    for (uint32_t from = 0; from < tools_.count; from += kAtOnce) {
+        SamplesOfRows samples = kept(from, kAtOnce);
+        ProjectedCounts counts = project(samples);
+        if (counts.drawn > 0) paint(samples, counts);
+    }
+    tools_.count = 0;
+}
+
+template <Hiding hiding>
+void FastColumns<hiding>::make_room(size_t more) {
+    size_t size = tools_.count + more + size_t(2) * PreparedLdi::kPadding;
+    if (tools_.places.size() >= size) return;
+    tools_.places.resize(size), tools_.rows.resize(size), tools_.colours.resize(size), tools_.splats.resize(size);
+    tools_.pixels.resize(size), tools_.sides.resize(size), tools_.depths_m.resize(size);
+}
+
+template <Hiding hiding>
+void FastColumns<hiding>::add_all(uint32_t row, const Span& columns) {
+    uint32_t from = first_of_row(row)[columns.from], count = first_of_row(row)[columns.to] - from;
+    std::copy_n(ldi_.places.data() + from, count, tools_.places.data() + tools_.count);
+    std::copy_n(ldi_.colours.data() + from, count, tools_.colours.data() + tools_.count);
+    if (!ldi_.splats.empty()) std::copy_n(ldi_.splats.data() + from, count, tools_.splats.data() + tools_.count);
+    std::fill_n(tools_.rows.data() + tools_.count, count, uint16_t(row));
+    tools_.count += count;
+}
+
+// Without asking each column: eight samples are copied, and stay if they are shown.
+template <Hiding hiding>
+void FastColumns<hiding>::add_shown(uint32_t row, const Span& columns, const uint32_t* shown) {
     constexpr uint32_t kAtATime = PreparedLdi::kPadding;
     const uint32_t* first = first_of_row(row);
-    size_t size = first[columns.to] - first[columns.from] + 2 * kAtATime;
     bool has_splats = !ldi_.splats.empty();
-    if (tools_.places.size() < size) tools_.places.resize(size), tools_.colours.resize(size), tools_.splats.resize(size);
     uint32_t* places = tools_.places.data();
     uint8_t *colours = tools_.colours.data(), *splats = tools_.splats.data();
-    uint32_t count = 0, from = first[columns.from];
+    uint32_t count = tools_.count, from = first[columns.from];
     for (uint32_t column = columns.from; column < columns.to; ++column) {
         uint32_t to = first[column + 1], here = (to - from) & shown[column];
         for (uint32_t done = 0; done == 0 || done < here; done += kAtATime) {
@@ -105,7 +117,24 @@ typename FastColumns<hiding>::Samples FastColumns<hiding>::those_shown(uint32_t 
         }
         count += here, from = to;
     }
-    return {places, colours, has_splats ? splats : nullptr, count};
+    std::fill_n(tools_.rows.data() + tools_.count, count - tools_.count, uint16_t(row));
+    tools_.count = count;
+}
+
+template <Hiding hiding>
+SamplesOfRows FastColumns<hiding>::kept(uint32_t from, uint32_t most) const {
+    const uint8_t* splats = ldi_.splats.empty() ? nullptr : tools_.splats.data() + from;
+    return {tools_.places.data() + from, tools_.rows.data() + from, tools_.colours.data() + from, splats,
+            std::min(most, tools_.count - from)};
+}
+
+template <Hiding hiding>
+ProjectedCounts FastColumns<hiding>::project(const SamplesOfRows& samples) {
+    ProjectedCounts counts;
+    tools_.project(on_plane_, samples, {tools_.pixels.data(), tools_.sides.data(), tools_.depths_m.data()}, counts);
+    tools_.counts.samples += samples.count, tools_.counts.samples_drawn += counts.drawn;
+    tools_.counts.pixels_written += counts.pixels;
+    return counts;
 }
 
 // A row's samples lie in a rectangle that stands up: not if its corners are all behind one of the picture's sides.
@@ -127,7 +156,7 @@ bool FastColumns<hiding>::may_be_seen(uint32_t row, const Span& columns, const g
 }
 
 template <Hiding hiding>
-void FastColumns<hiding>::paint(const Samples& samples, const ProjectedCounts& counts) {
+void FastColumns<hiding>::paint(const SamplesOfRows& samples, const ProjectedCounts& counts) {
     if (counts.least_side != counts.most_side || counts.most_side > 4) return paint_uneven(samples);
     switch (counts.most_side) {
         case 1:
@@ -144,9 +173,9 @@ void FastColumns<hiding>::paint(const Samples& samples, const ProjectedCounts& c
 // Splats of one size; those that are not drawn are painted where nothing is seen.
 template <Hiding hiding>
 template <int side>
-void FastColumns<hiding>::paint_even(const Samples& samples) {
+void FastColumns<hiding>::paint_even(const SamplesOfRows& samples) {
     int64_t* keys = tools_.canvas->keys();
-    ptrdiff_t stride = row_.stride;
+    ptrdiff_t stride = on_plane_.stride;
     const uint32_t* palette = ldi_.palette.data();
     for (uint32_t k = 0; k < samples.count; ++k) {
         int64_t key = pixel_key(tools_.depths_m[k], palette[samples.colours[k]]);
@@ -155,7 +184,7 @@ void FastColumns<hiding>::paint_even(const Samples& samples) {
 }
 
 template <Hiding hiding>
-void FastColumns<hiding>::paint_uneven(const Samples& samples) {
+void FastColumns<hiding>::paint_uneven(const SamplesOfRows& samples) {
     for (uint32_t k = 0; k < samples.count; ++k) paint_one(k, samples.colours[k]);
 }
 
@@ -163,7 +192,7 @@ template <Hiding hiding>
 inline void FastColumns<hiding>::paint_one(uint32_t projected, uint8_t colour) {
     int64_t key = pixel_key(tools_.depths_m[projected], ldi_.palette[colour]);
     int64_t* pixel = tools_.canvas->keys() + tools_.pixels[projected];
-    ptrdiff_t stride = row_.stride;
+    ptrdiff_t stride = on_plane_.stride;
     switch (int side = tools_.sides[projected]; side) {
         case 1:
             return put_square<hiding>(pixel, stride, 1, key);

@@ -1,4 +1,4 @@
-// Rows of a prepared image painted on a canvas, many samples at a time.
+// A prepared image painted on a canvas, many samples at a time.
 #pragma once
 
 #include <vector>
@@ -18,9 +18,11 @@ struct FastTools {
     std::vector<int32_t> pixels, sides;
     std::vector<float> depths_m;
     std::vector<uint32_t> shown;  // of each column of a row
-    // Samples of a row, one after the other, that are shown; PreparedLdi::kPadding more.
+    // Samples that are shown, one after the other, as SamplesOfRows; there is room for more than `count`.
     std::vector<uint32_t> places;
+    std::vector<uint16_t> rows;
     std::vector<uint8_t> colours, splats;
+    uint32_t count = 0;
 };
 
 template <Hiding hiding>
@@ -32,29 +34,25 @@ class FastColumns final : public Columns {
 
     void stand_on(const Plane& plane) override;
     void draw(uint32_t column, uint32_t row) override { draw_row(row, {column, column + 1}, nullptr); }
-    // shown: for each column all bits or none; null: all are, which by order they must be.
+    // shown: for each column all bits or none; null: all are, which by order they must be. By depth some are kept until finish().
     void draw_row(uint32_t row, const Span& columns, const uint32_t* shown);
+    // Before it stands on another plane, or another is drawn.
+    void finish();
     // False only if none of a row's samples can be in the picture.
     bool may_show(uint32_t row, const Span& columns) const;
     bool is_inside = false;  // the picture holds all of it, so that rows are not asked about
 
   private:
     bool may_be_seen(uint32_t row, const Span& columns, const glm::vec3& foot) const;
-    // Samples of a row: as PreparedLdi has them, readable for kPadding more.
-    struct Samples {
-        const uint32_t* places;
-        const uint8_t *colours, *splats;  // splats: null if there are none
-        uint32_t count;
-
-        Samples part(uint32_t from, uint32_t most) const {
-            return {places + from, colours + from, splats == nullptr ? nullptr : splats + from, std::min(most, count - from)};
-        }
-    };
-    Samples those_shown(uint32_t row, const Span& columns, const uint32_t* shown);
-    void paint(const Samples& samples, const ProjectedCounts& counts);
+    void make_room(size_t more);
+    void add_all(uint32_t row, const Span& columns);
+    void add_shown(uint32_t row, const Span& columns, const uint32_t* shown);
+    SamplesOfRows kept(uint32_t from, uint32_t most) const;
+    ProjectedCounts project(const SamplesOfRows& samples);
+    void paint(const SamplesOfRows& samples, const ProjectedCounts& counts);
     template <int side>
-    void paint_even(const Samples& samples);
-    void paint_uneven(const Samples& samples);
+    void paint_even(const SamplesOfRows& samples);
+    void paint_uneven(const SamplesOfRows& samples);
     void paint_towards(uint32_t row, const Span& columns);
     void paint_column(uint32_t column, uint32_t row, uint32_t begin);
     void paint_one(uint32_t projected, uint8_t colour);
@@ -64,7 +62,7 @@ class FastColumns final : public Columns {
     const PreparedLdi& ldi_;
     FastTools& tools_;
     ImageFrame frame_;
-    RowFrame row_;
+    SampleFrame on_plane_;
     int64_t eye_column_ = 0;
 };
 

@@ -123,6 +123,7 @@ void FastTile<hiding>::draw_rows(FastColumns<hiding>& columns, const Piece& piec
         if (!all_shown) fades_.mask(columns, row, span, tools_.shown);
         columns.draw_row(row, span, all_shown ? nullptr : tools_.shown.data());
     }
+    columns.finish();
 }
 
 template class FastTile<Hiding::by_order>;

@@ -2,8 +2,8 @@
 
 namespace overlook::wang_ldi {
 
-void project_samples_anywhere(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts) {
-    project_lanes(row, places, splats, count, out, counts);
+void project_samples_anywhere(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts) {
+    project_lanes(frame, samples, out, counts);
 }
 
 ProjectSamples best_project_samples() {

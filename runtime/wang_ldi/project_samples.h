@@ -1,4 +1,4 @@
-// Samples of a row of an image brought to a picture, many at once: the inner loop of the fast warper. Compiled several times, for
+// Samples of an image brought to a picture, many at once: the inner loop of the fast warper. Compiled several times, for
 // processors with and without wider vectors; all give the same numbers.
 #pragma once
 
@@ -6,9 +6,9 @@
 
 namespace overlook::wang_ldi {
 
-// What is the same for all samples of a row.
-struct RowFrame {
-    float foot[3], east[3], up[3];  // as Eye::seen: of the row's western end, of a metre east, of a metre up
+// What is the same for all samples of an image on a plane.
+struct SampleFrame {
+    float corner[3], east[3], north[3], up[3];  // as Eye::seen: of the tile's corner, of a metre east, north and up
     float pixel_m, step_m, splat;   // splat: times the focal length, in metres, of a sample; or of a unit of `splats`
     float near_m, middle_px[2];
     int32_t width_px, height_px, most_side;  // most_side: of splats, up to 256
@@ -28,13 +28,19 @@ struct ProjectedCounts {
     int32_t least_side = INT32_MAX, most_side = 0;  // of those drawn
 };
 
-// places, splats: as PreparedLdi, readable for 8 more; splats: null if there are none.
-using ProjectSamples = void (*)(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts);
+// All readable for 8 more.
+struct SamplesOfRows {
+    const uint32_t* places;  // as PreparedLdi
+    const uint16_t* rows;
+    const uint8_t *colours, *splats;  // as PreparedLdi; splats: null if there are none
+    uint32_t count;
+};
+using ProjectSamples = void (*)(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts);
 
 // For any processor of the kind this is compiled for.
-void project_samples_anywhere(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts);
+void project_samples_anywhere(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts);
 // For those with AVX2; where there are none such, the same as the other.
-void project_samples_avx2(const RowFrame& row, const uint32_t* places, const uint8_t* splats, uint32_t count, const Projected& out, ProjectedCounts& counts);
+void project_samples_avx2(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts);
 // The fastest that this processor has.
 ProjectSamples best_project_samples();
 

@@ -171,19 +171,23 @@ TEST(FastWarp, WhatIsNotAtHandIsCountedAndLeftOut) {
 
 // The same lanes that are drawn, with the same numbers, whichever the processor has.
 TEST(FastWarp, LanesBehindTheEyeAreNotDrawn) {
-    RowFrame row{{-15, 0, -1}, {6, 0, 0.5f}, {0, 100, 0}, 0.1f, 0.01f, 5, 0.1f, {50, 40}, 100, 80, 64, 228, 64 * 228 + 64, 0};
+    SampleFrame frame{{-15, -2, -1}, {6, 0, 0.5f}, {0, 40, 0}, {0, 100, 0}, 0.1f, 0.01f, 5, 0.1f, {50, 40},
+                      100,           80,           64,         228,         64 * 228 + 64, 0};
     std::vector<uint32_t> places;
+    std::vector<uint16_t> rows(72, 0);
+    std::vector<uint8_t> colours(72, 0);
     for (uint32_t s = 0; s < 64 + 8; ++s) places.push_back(s % 64 | (s % 5) << 16);
     for (ProjectSamples project : {&project_samples_anywhere, best_project_samples()})
         for (uint32_t count : {1u, 7u, 8u, 61u}) {
             std::vector<int32_t> pixels(72), sides(72);
             std::vector<float> depths(72);
             ProjectedCounts counts;
-            project(row, places.data(), nullptr, count, {pixels.data(), sides.data(), depths.data()}, counts);
+            SamplesOfRows samples{places.data(), rows.data(), colours.data(), nullptr, count};
+            project(frame, samples, {pixels.data(), sides.data(), depths.data()}, counts);
             uint64_t drawn = 0;
             for (uint32_t s = 0; s < count; ++s) {
                 float depth = -1 + (float(s) + 0.5f) * 0.1f * 0.5f;
-                bool is_drawn = pixels[s] != row.nowhere;
+                bool is_drawn = pixels[s] != frame.nowhere;
                 drawn += is_drawn;
                 if (is_drawn) {
                     EXPECT_GE(depth, 0.1f);
