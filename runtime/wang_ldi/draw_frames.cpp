@@ -122,8 +122,8 @@ Result<void> FrameDrawer::decide(const view::Camera& camera, double dt_s, double
     if (splats_)
         slots_[next].picture.clear(0, 0);  // the card warps, and none is left of an earlier way
     else
-        warping_ = std::async(std::launch::async,
-                              [this, &slot = slots_[next]] { paint(slot, options_, slot.picture, slot.counts); });
+        warping_ =
+            std::async(std::launch::async, [this, &slot = slots_[next]] { paint(slot, options_, slot.picture, slot.counts); });
     shown_ = is_late ? ready : next, has_next_ = is_late;
     slots_[shown_].counts.latency_frames = is_late ? 1 : 0;
     return {};

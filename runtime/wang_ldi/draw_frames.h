@@ -134,7 +134,7 @@ class FrameDrawer {
     FastWarp fast_;
     PlantRaster raster_;
     FieldScratch scratch_;
-    FieldList wanted_, ahead_;  // were all images at hand, of this frame and of a later one
+    FieldList wanted_, ahead_;            // were all images at hand, of this frame and of a later one
     std::optional<view::Camera> before_;  // the camera of the frame before
     std::vector<Error> faults_;
     Warped other_;  // of the frame drawn last, for a target of other samples

@@ -28,8 +28,8 @@ struct Rung {
     double fade_from_m = 0, fade_to_m = 0;
 };
 
-// Rungs by ascending distance, the first from 0 on. No two bands overlap. Behind all, at no distance: the coarsest images where no
-// other rung has them, which are always at hand and stand in for others (ImageStore).
+// Rungs by ascending distance, the first from 0 on. No two bands overlap. Behind all, at no distance: the coarsest images where
+// no other rung has them, which are always at hand and stand in for others (ImageStore).
 struct Ladder {
     std::vector<Rung> rungs;
 };

@@ -6,7 +6,7 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kKept = 1024;    // samples are brought to the picture when there are so many, if more come
+constexpr uint32_t kKept = 1024;   // samples are brought to the picture when there are so many, if more come
 constexpr uint32_t kAtOnce = 256;  // and painted, so many that are beside each other
 
 template <Hiding hiding>

@@ -101,8 +101,8 @@ class FieldLister {
         return {{0, geometry}, {kWhole - image, kWhole}};
     }
 
-    // How far samples may stand from their surfaces, in metres. Where tiles are cut, an even part is kept back of what their ground
-    // may stand off, so that nothing changes at once where one is cut in more pieces.
+    // How far samples may stand from their surfaces, in metres. Where tiles are cut, an even part is kept back of what their
+    // ground may stand off, so that nothing changes at once where one is cut in more pieces.
     double permitted_m(const Item& item, const Rect& rect) const {
         const FieldOptions& options = field_.options_;
         if (std::isinf(options.error_px)) return INFINITY;
@@ -208,9 +208,9 @@ class FieldLister {
 };
 
 void FieldCounts::add(const FieldCounts& other) {
-    for (auto of : {&FieldCounts::blocks_tested, &FieldCounts::tiles_tested, &FieldCounts::blocks_listed, &FieldCounts::tiles_listed,
-                    &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces, &FieldCounts::displaced_tiles,
-                    &FieldCounts::outside_cell, &FieldCounts::samples, &FieldCounts::texels})
+    for (auto of : {&FieldCounts::blocks_tested, &FieldCounts::tiles_tested, &FieldCounts::blocks_listed,
+                    &FieldCounts::tiles_listed, &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces,
+                    &FieldCounts::displaced_tiles, &FieldCounts::outside_cell, &FieldCounts::samples, &FieldCounts::texels})
         this->*of += other.*of;
     for (size_t v = 0; v < kVerdicts; ++v) tiles_by_verdict[v] += other.tiles_by_verdict[v];
     samples_shown += other.samples_shown, displacement_px = std::max(displacement_px, other.displacement_px);

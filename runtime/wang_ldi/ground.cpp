@@ -181,7 +181,8 @@ namespace {
 Sheared between_corners(const std::array<double, 4>& corners_m, const glm::dvec2& side, Diagonal diagonal) {
     auto [sw, se, nw, ne] = corners_m;
     if (diagonal == Diagonal::rising)
-        return {diagonal, {Plane{sw, {(ne - nw) / side.x, (nw - sw) / side.y}}, Plane{sw, {(se - sw) / side.x, (ne - se) / side.y}}}};
+        return {diagonal,
+                {Plane{sw, {(ne - nw) / side.x, (nw - sw) / side.y}}, Plane{sw, {(se - sw) / side.x, (ne - se) / side.y}}}};
     glm::dvec2 south_west((se - sw) / side.x, (nw - sw) / side.y), north_east((ne - nw) / side.x, (ne - se) / side.y);
     return {diagonal, {Plane{sw, south_west}, Plane{nw + se - ne, north_east}}};
 }
@@ -211,9 +212,8 @@ void Ground::displace(const Rect& rect, std::span<Sheared> all) const {
         visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]), take_all);
     for (Sheared& one : all) {
         auto [from, to] = one.diagonal == Diagonal::rising ? std::pair{0, 3} : std::pair{2, 1};
-        visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]), [&](const glm::dvec2& grid) {
-            take(one, grid * per_sample - rect.low_m, side, height_at(grid, asked));
-        });
+        visit_crossings(grid_of(corners[size_t(from)]), grid_of(corners[size_t(to)]),
+                        [&](const glm::dvec2& grid) { take(one, grid * per_sample - rect.low_m, side, height_at(grid, asked)); });
     }
 }
 

@@ -80,7 +80,9 @@ class Ground {
         uint32_t column = std::numeric_limits<uint32_t>::max(), row = 0;
         std::array<double, 4> corners_m{};  // north-west, north-east, south-west, south-east
     };
-    double height_m(const glm::dvec2& at_m, Asked& asked) const { return terrain_ ? height_at(grid_of(at_m), asked) : plain_height_m_; }
+    double height_m(const glm::dvec2& at_m, Asked& asked) const {
+        return terrain_ ? height_at(grid_of(at_m), asked) : plain_height_m_;
+    }
 
     // Exactly the lowest and the highest, and the steepest of the triangles of all cells that it touches. Empty and not whole if
     // it is not inside the extent or touches a void. O(cells touched).
@@ -110,7 +112,7 @@ class Ground {
     Touched touched_by(const Rect& rect) const;
     Cells cell(uint32_t column, uint32_t row) const;
     std::array<double, 4> corner_heights_m(const Rect& rect) const;  // south-west, south-east, north-west, north-east
-    void displace(const Rect& rect, std::span<Sheared> all) const;    // measures how far each is displaced
+    void displace(const Rect& rect, std::span<Sheared> all) const;   // measures how far each is displaced
     template <class Visit>
     void visit_samples_inside(const Rect& rect, const Visit& visit) const;
 

@@ -70,8 +70,7 @@ bool PlantPen::is_hidden(const ShapeBunch& bunch) const {
 void PlantPen::draw_bunch(const Skin& skin, const ShapeBunch& bunch) {
     PlacedVertices placed = place(bunch);
     SiftFrame frame{left_, right_, int32_t(canvas_->height_px()), canvas_->stride(), canvas_->row(0)};
-    uint32_t count =
-        loops_.sift(frame, placed, level_->indices.data() + bunch.first_index, bunch.index_count / 3, kept_.data());
+    uint32_t count = loops_.sift(frame, placed, level_->indices.data() + bunch.first_index, bunch.index_count / 3, kept_.data());
     for (uint32_t n = 0; n < count; ++n) {
         uint32_t index = bunch.first_index + 3u * (kept_[n] & ~kIsCut);
         if (kept_[n] & kIsCut)

@@ -1,5 +1,5 @@
-// How plant_sift.h does it, eight at a time. Included once by each of its compilations, which differ in what the compiler may use:
-// so nothing in here may have a name that others see, nor call what others compile.
+// How plant_sift.h does it, eight at a time. Included once by each of its compilations, which differ in what the compiler may
+// use: so nothing in here may have a name that others see, nor call what others compile.
 //
 // Based on: J. Pineda, A Parallel Algorithm for Polygon Rasterization, 1988 (edge functions).
 #pragma once

@@ -2,7 +2,8 @@
 
 namespace overlook::wang_ldi {
 
-void project_samples_anywhere(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts) {
+void project_samples_anywhere(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out,
+                              ProjectedCounts& counts) {
     project_lanes(frame, samples, out, counts);
 }
 

@@ -49,7 +49,8 @@ struct Eight {
     Floats depth_m;
 };
 
-inline void project_eight(const SampleFrame& frame, const uint32_t* places, const uint16_t* rows, const uint8_t* splats, Eight& out) {
+inline void project_eight(const SampleFrame& frame, const uint32_t* places, const uint16_t* rows, const uint8_t* splats,
+                          Eight& out) {
     Words place;
     Shorts own_row;
     load(place, places), load(own_row, rows);
@@ -107,7 +108,8 @@ inline void project_lanes(const SampleFrame& frame, const SamplesOfRows& samples
     for (uint32_t s = 0; s < count; s += kLanes) {
         Eight eight;
         eight.is_there = lane < int32_t(count - s);
-        project_eight(frame, samples.places + s, samples.rows + s, samples.splats == nullptr ? nullptr : samples.splats + s, eight);
+        project_eight(frame, samples.places + s, samples.rows + s, samples.splats == nullptr ? nullptr : samples.splats + s,
+                      eight);
         Ints side = chosen(eight.is_drawn, eight.side, Ints{} + 1);
         store(out.pixels + s, eight.pixels), store(out.sides + s, side), store(out.depths_m + s, eight.depth_m);
         count_eight(frame, eight, side, lanes);

@@ -9,7 +9,7 @@ namespace overlook::wang_ldi {
 // What is the same for all samples of an image on a plane.
 struct SampleFrame {
     float corner[3], east[3], north[3], up[3];  // as Eye::seen: of the tile's corner, of a metre east, north and up
-    float pixel_m, step_m, splat;   // splat: times the focal length, in metres, of a sample; or of a unit of `splats`
+    float pixel_m, step_m, splat;               // splat: times the focal length, in metres, of a sample; or of a unit of `splats`
     float near_m, middle_px[2];
     int32_t width_px, height_px, most_side;  // most_side: of splats, up to 256
     int32_t stride, origin;                  // pixel (x, y) is origin + y * stride + x, also left of and above the picture
@@ -35,10 +35,12 @@ struct SamplesOfRows {
     const uint8_t *colours, *splats;  // as PreparedLdi; splats: null if there are none
     uint32_t count;
 };
-using ProjectSamples = void (*)(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts);
+using ProjectSamples = void (*)(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out,
+                                ProjectedCounts& counts);
 
 // For any processor of the kind this is compiled for.
-void project_samples_anywhere(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts);
+void project_samples_anywhere(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out,
+                              ProjectedCounts& counts);
 // For those with AVX2; where there are none such, the same as the other.
 void project_samples_avx2(const SampleFrame& frame, const SamplesOfRows& samples, const Projected& out, ProjectedCounts& counts);
 // The fastest that this processor has.

@@ -171,8 +171,8 @@ TEST(FastWarp, WhatIsNotAtHandIsCountedAndLeftOut) {
 
 // The same lanes that are drawn, with the same numbers, whichever the processor has.
 TEST(FastWarp, LanesBehindTheEyeAreNotDrawn) {
-    SampleFrame frame{{-15, -2, -1}, {6, 0, 0.5f}, {0, 40, 0}, {0, 100, 0}, 0.1f, 0.01f, 5, 0.1f, {50, 40},
-                      100,           80,           64,         228,         64 * 228 + 64, 0};
+    SampleFrame frame{{-15, -2, -1}, {6, 0, 0.5f}, {0, 40, 0}, {0, 100, 0}, 0.1f, 0.01f,         5, 0.1f,
+                      {50, 40},      100,          80,         64,          228,  64 * 228 + 64, 0};
     std::vector<uint32_t> places;
     std::vector<uint16_t> rows(72, 0);
     std::vector<uint8_t> colours(72, 0);
