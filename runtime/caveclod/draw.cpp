@@ -39,7 +39,7 @@ gl::TriangleRange take_from(gl::TriangleRange& range, uint64_t face_count) {
 }
 
 float linear_of(uint8_t encoded) {
-    return float(linear_from_srgb(encoded / 255.0));
+    return float(linear_from_srgb_code(encoded));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct PackedVisibility {
 };
 
 float linear_of(uint8_t encoded) {
-    return float(linear_from_srgb(encoded / 255.0));
+    return float(linear_from_srgb_code(encoded));
 }
 
 template <class T>

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "formats/srgb.h"
+
 namespace overlook::gl {
 namespace {
 
@@ -14,26 +16,16 @@ struct Linear {
     std::vector<std::array<float, 3>> plain;  // colours whatever their opacity
 };
 
-std::array<float, 256> linear_of_bytes() {
-    std::array<float, 256> table{};
-    for (size_t i = 0; i < 256; ++i) {
-        double v = double(i) / 255;
-        table[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-    }
-    return table;
-}
-
 uint8_t encoded(float linear) {
-    double v = std::clamp(double(linear), 0.0, 1.0);
-    return uint8_t(std::lround(255 * (v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
+    return uint8_t(std::lround(255 * srgb_from_linear(std::clamp(double(linear), 0.0, 1.0))));
 }
 
 Linear linear_of(const ImageRgba8& image) {
-    static const std::array<float, 256> kTable = linear_of_bytes();
     Linear made{image.width, image.height, {}, {}};
     for (size_t i = 0; i < image.pixels.size(); i += 4) {
         float opacity = float(image.pixels[i + 3]) / 255;
-        std::array<float, 3> c{kTable[image.pixels[i]], kTable[image.pixels[i + 1]], kTable[image.pixels[i + 2]]};
+        auto light = [&](size_t channel) { return float(linear_from_srgb_code(image.pixels[i + channel])); };
+        std::array<float, 3> c{light(0), light(1), light(2)};
         made.pixels.push_back({c[0] * opacity, c[1] * opacity, c[2] * opacity, opacity});
         made.plain.push_back(c);
     }

@@ -134,11 +134,11 @@ Method default_method(Thing thing) {
 }
 
 bool takes_budgets(Method method) {
-    return has_wireframe(method);
+    return has_wireframe(method) || method >= Method::wang_ldi;
 }
 
 bool keeps_triangles(Method method, Thing thing) {
-    return method == Method::caveclod || method == Method::caveclod_shared || keeps_ms(method, thing);
+    return method == Method::caveclod || method == Method::caveclod_shared || thing == Thing::planting || keeps_ms(method, thing);
 }
 
 bool keeps_ms(Method, Thing thing) {

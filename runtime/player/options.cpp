@@ -142,7 +142,8 @@ void add_options(CLI::App& app, Options& options) {
                    "takes from where, and wang-ldi's levels and directions")
         ->type_name("NAME");
     CLI::Option* triangles = app.add_option("--triangles", options.triangles,
-                                            "Triangles a frame at most: the error rises above --error-px where it must")
+                                            "Triangles a frame at most, of a planting its ground's and those of plants drawn as "
+                                            "geometry: the error rises above --error-px where it must")
                                  ->type_name("N");
     app.add_option("--frame-ms", options.frame_ms, "Milliseconds a frame at most, likewise")
         ->type_name("MS")

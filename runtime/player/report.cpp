@@ -48,6 +48,7 @@ void put_planting(const wang_ldi::FrameCounts& planting, Json& json) {
     json["samples_drawn"] = planting.warp.samples_drawn;
     json["holes_filled_px"] = planting.holes_filled;
     json["pixels_written"] = planting.warp.pixels_written;
+    json["times_listed"] = planting.times_listed;
     json["list_ms"] = planting.list_ms;
     json["warp_ms"] = planting.warp_ms;
     json["plants_by_processor"] = planting.are_plants_by_processor;

@@ -36,6 +36,7 @@ class PlantingSubject : public Subject {
 
     Result<FrameRecord> draw(const gl::Target& target, const view::Camera& camera, const FrameStyle& style) override {
         if (Result<void> ready = make_ready(style, target.samples()); !ready) return tl::unexpected(ready.error());
+        frames_->set_budget(double(style.most_triangles));
         gl::Timer deciding;
         if (Result<void> decided = frames_->decide(camera, style.dt_s, style.morph); !decided)
             return tl::unexpected(decided.error());
@@ -44,7 +45,6 @@ class PlantingSubject : public Subject {
         gl::Timer drawing;
         frames_->draw(target, style.look);
         record.draw_ms = drawing.finished_ms();
-        record.asked_error_px = style.error_px;
         take_counts(record);
         return record;
     }
@@ -53,6 +53,7 @@ class PlantingSubject : public Subject {
     void take_counts(FrameRecord& record) const {
         const wang_ldi::FrameCounts& counts = frames_->counts();
         record.planting = counts;
+        record.asked_error_px = counts.asked_error_px;
         record.triangle_count = counts.triangle_count + counts.plants.triangle_count;
         record.void_rim_triangle_count = counts.void_rim_triangle_count;
         record.tested_count = counts.terrain_tested_count + counts.field.tiles_tested + counts.field.blocks_tested;

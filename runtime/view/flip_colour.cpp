@@ -72,21 +72,13 @@ float greatest_difference() {
     return std::pow(hyab(green.l - blue.l, green.a - blue.a, green.b - blue.b), kExponent);
 }
 
-std::array<float, 256> linear_table() {
-    std::array<float, 256> table;
-    for (size_t v = 0; v < 256; ++v) {
-        double encoded = double(v) / 255;
-        table[v] = float(linear_from_srgb(encoded));
-    }
-    return table;
-}
-
 }  // namespace
 
 void opponent_from_srgb(const uint8_t* rgb, size_t width, const OpponentRow& out) {
-    static const std::array<float, 256> kLinear = linear_table();
+    const std::array<double, 256>& linear = linear_of_srgb_codes();
     for (size_t x = 0; x < width; ++x) {
-        Relative xyz = relative_from_rgb(kLinear[rgb[3 * x]], kLinear[rgb[3 * x + 1]], kLinear[rgb[3 * x + 2]]);
+        auto light = [&](size_t channel) { return float(linear[rgb[3 * x + channel]]); };
+        Relative xyz = relative_from_rgb(light(0), light(1), light(2));
         out.y[x] = xyz.y;
         out.red_green[x] = xyz.x - xyz.y;
         out.yellow_blue[x] = xyz.y - xyz.z;

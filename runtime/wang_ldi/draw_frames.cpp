@@ -133,16 +133,10 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     slot.counts = {};
     slot.origin_m = origin_of(land_, camera);
     slot.camera = with_clear_near_plane(*land_.terrain, land_.is_plain, camera);
-    Result<Field> field =
-        Field::of(planted_.parts(), field_options_of(planted_.images().set(), field_options(), slot.camera, far_.side_px()));
-    if (!field) return tl::unexpected(field.error());
-    slot.field.emplace(std::move(*field));
-
     Clock clock;
-    land_.refiner->cut_by_pixels(moved(slot.camera, -slot.origin_m), options_.error_px, slot.cut, morph);
-    if (Result<void> listed = list(slot, dt_s); !listed) return listed;
+    if (Result<void> listed = list(slot, morph); !listed) return listed;
+    if (Result<void> fetched = fetch(slot, dt_s); !fetched) return fetched;
     FrameCounts& counts = slot.counts;
-    list_plants(slot);
     counts.plants = counts_of(slot.plants), counts.are_plants_by_processor = are_plants_by_processor_;
     counts.list_ms = clock.elapsed_ms();
     counts.triangle_count = slot.cut.triangle_count(), counts.void_rim_triangle_count = slot.cut.void_rim_triangle_count;
@@ -155,35 +149,30 @@ Result<void> FrameDrawer::prepare(const view::Camera& camera, double dt_s, doubl
     return {};
 }
 
-// Without models nothing is drawn as geometry.
-FrameOptions FrameDrawer::field_options() const {
+// At the error that keeps the budget.
+Result<void> FrameDrawer::list(Slot& slot, double morph) {
+    LandLister lister(planted_, *land_.refiner, land_.plants != nullptr ? &land_.plants->forms() : nullptr);
     FrameOptions options = options_;
-    options.has_geometry &= land_.plants != nullptr;
-    return options;
+    Result<void> listed;
+    slot.counts.asked_error_px = fitting_error_.error_px(options_.error_px, [&](double error_px) {
+        options.error_px = error_px;
+        if (listed) listed = lister.list(slot.camera, slot.origin_m, options, far_.side_px(), morph, slot);
+        return double(slot.triangle_count());
+    });
+    slot.counts.times_listed = fitting_error_.count_count(), slot.counts.field = slot.list.counts;
+    return listed;
 }
 
-void FrameDrawer::list_plants(Slot& slot) const {
-    slot.plants.clear();
-    if (land_.plants == nullptr) return;
-    std::vector<PlantPlaces> by_model(planted_.planting().models.size());
-    for (const Item& item : slot.list.items)
-        for (const Shown& shown : slot.list.shown_of(item))
-            if (slot.field->ladder().rungs[shown.rung].stage == Stage::geometry)
-                add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, by_model);
-    slot.plants = land_.plants->lists(slot.camera, by_model, options_.error_px);
-}
-
-// And has its images at hand, or others in their place.
-Result<void> FrameDrawer::list(Slot& slot, double dt_s) {
+// Has its images at hand, or others in their place.
+Result<void> FrameDrawer::fetch(Slot& slot, double dt_s) {
     uint64_t streamed_bytes = 0;
     faults_.clear();
-    slot.field->list(slot.camera, wanted_, scratch_);
+    wanted_ = slot.list;
     do {
         const std::vector<Error>& faults = store_->begin_frame();
         faults_.insert(faults_.end(), faults.begin(), faults.end());
         if (streaming_.waits && !faults_.empty()) return tl::unexpected(faults_.front());
         slot.list = wanted_;
-        slot.counts.field = slot.list.counts;
         slot.counts.images = store_->take(*slot.field, slot.list);
         if (!streaming_.waits) look_ahead(slot, dt_s);
         store_->end_frame();
@@ -202,7 +191,7 @@ void FrameDrawer::look_ahead(Slot& slot, double dt_s) {
     if (way_m == glm::dvec3(0) && turn_deg == 0) return;
     view::Camera camera = moved(slot.camera, way_m);
     camera.heading_deg += std::clamp(turn_deg, -90.0, 90.0);
-    slot.field->list(camera, ahead_, scratch_);
+    slot.field->list(camera, ahead_, slot.scratch);
     store_->look_ahead(*slot.field, ahead_);
 }
 

@@ -10,11 +10,13 @@
 #include "runtime/stream/stream.h"
 #include "runtime/terrain/draw.h"
 #include "runtime/terrain/refine.h"
+#include "runtime/view/counted_error.h"
 #include "runtime/wang_ldi/draw_composite.h"
 #include "runtime/wang_ldi/draw_plants.h"
 #include "runtime/wang_ldi/draw_splats.h"
 #include "runtime/wang_ldi/fast_warp.h"
 #include "runtime/wang_ldi/image_store.h"
+#include "runtime/wang_ldi/land_list.h"
 #include "runtime/wang_ldi/plant_raster.h"
 #include "runtime/wang_ldi/planted_field.h"
 #include "runtime/wang_ldi/rings.h"
@@ -62,6 +64,8 @@ struct FrameCounts {
     bool is_warped_by_card = false;        // of warp then only `samples`, of all that is drawn, and images_missing are counted
     double list_ms = 0, plants_ms = 0;     // plants_ms: of geometry that the processor draws, beside other work as warp_ms
     double warp_ms = 0;                    // beside other work, of one that is pipelined; of the card until it has its orders
+    double asked_error_px = 0;             // the options', or above it where a budget forces it
+    int times_listed = 0;                  // until it was found
     double planting_error_px = 0;          // of what is planted: planting_error_px, and of geometry what its levels are off
     double predicted_error_px = 0;         // of terrain and planting, the greater
 };
@@ -81,6 +85,9 @@ class FrameDrawer {
     // From the next frame on. Images stay. What the processor draws plants from is made here, once. Fails as Splats::make.
     Result<void> change(const FrameOptions& options);
     const FrameOptions& options() const { return options_; }
+    // Triangles, of terrain and plants, that a frame may have from the next on; 0: as many as the options' error takes. Counted
+    // before a frame is drawn, as the error that is asked is raised (view::CountedError).
+    void set_budget(double triangles) { fitting_error_.set_most(triangles); }
 
     // morph: as Refiner::cut_by_pixels. Fails if it waits for an image that cannot be read.
     Result<void> decide(const view::Camera& camera, double dt_s, double morph);
@@ -94,22 +101,17 @@ class FrameDrawer {
     uint64_t budget_bytes() const { return store_->settings().residency_budget_bytes; }
 
   private:
-    struct Slot {
-        view::Camera camera;     // whose near plane cuts nothing off
-        glm::dvec3 origin_m{0};  // of the terrain, in the camera's world
-        std::optional<Field> field;
-        FieldList list;
-        terrain::Cut cut;
-        std::vector<PlantList> plants;  // drawn as geometry
-        double images_error_px = 0;     // planting_error_px
+    struct Slot : LandList {
+        view::Camera camera;         // whose near plane cuts nothing off
+        glm::dvec3 origin_m{0};      // of the terrain, in the camera's world
+        double images_error_px = 0;  // planting_error_px
         Warped picture;
         FrameCounts counts;
     };
     FrameDrawer(const PlantedField& planted, const Land& land, const FrameOptions& options, const ImageStreaming& streaming);
     Result<void> prepare(const view::Camera& camera, double dt_s, double morph, Slot& slot);
-    Result<void> list(Slot& slot, double dt_s);
-    void list_plants(Slot& slot) const;
-    FrameOptions field_options() const;
+    Result<void> list(Slot& slot, double morph);
+    Result<void> fetch(Slot& slot, double dt_s);
     void look_ahead(Slot& slot, double dt_s);
     void paint(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts);
     void paint_images(const Slot& slot, const FrameOptions& options, Warped& picture, FrameCounts& counts);
@@ -133,8 +135,8 @@ class FrameDrawer {
     RingImages rings_;
     FastWarp fast_;
     PlantRaster raster_;
-    FieldScratch scratch_;
-    FieldList wanted_, ahead_;            // were all images at hand, of this frame and of a later one
+    FieldList wanted_, ahead_;  // were all images at hand, of this frame and of a later one
+    view::CountedError fitting_error_;
     std::optional<view::Camera> before_;  // the camera of the frame before
     std::vector<Error> faults_;
     Warped other_;  // of the frame drawn last, for a target of other samples

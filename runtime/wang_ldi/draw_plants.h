@@ -39,6 +39,7 @@ class Plants {
     // discrete::Drawing::make.
     static Result<Plants> make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun);
 
+    const std::vector<PlantForm>& forms() const { return forms_; }  // of each model
     // error_px: of the pixels of the camera's picture; 0: the finest levels.
     std::vector<PlantList> lists(const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px) const;
     // Draws over what the target holds, by depth; does not resolve. haze_per_m: of the air before them, as terrain::Drawing's; 0:
@@ -61,7 +62,7 @@ class Plants {
                    PlantCounts& counts);
 
     PlantLight light_;
-    std::vector<PlantForm> forms_;    // of each model
+    std::vector<PlantForm> forms_;
     std::vector<PlantShape> shapes_;  // of each model, once they are wanted
     std::vector<std::unique_ptr<Model>> models_;
 };

@@ -32,7 +32,7 @@ std::vector<Sum> sums_of(const ImageSet& set, const Ldi& ldi, uint32_t side) {
         for (uint32_t s = ldi.first[pixel]; s < ldi.first[pixel + 1]; ++s) {
             double height_m = ldi.heights[s] * step_m;
             ++sum.samples, sum.height_m += height_m, sum.height_squared += height_m * height_m;
-            for (size_t c = 0; c < 3; ++c) sum.light[c] += linear_from_srgb(ldi.palette[ldi.colours[s]][c] / 255.0);
+            for (size_t c = 0; c < 3; ++c) sum.light[c] += linear_from_srgb_code(ldi.palette[ldi.colours[s]][c]);
         }
     }
     for (uint32_t level = 1; level < texture_levels(side); ++level) {

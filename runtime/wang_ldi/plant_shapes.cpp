@@ -12,15 +12,8 @@
 namespace overlook::wang_ldi {
 namespace {
 
-std::array<float, 256> linear_table() {
-    std::array<float, 256> table{};
-    for (size_t v = 0; v < 256; ++v) table[v] = float(linear_from_srgb(double(v) / 255));
-    return table;
-}
-
 float linear_of(uint8_t encoded) {
-    static const std::array<float, 256> kTable = linear_table();
-    return kTable[encoded];
+    return float(linear_from_srgb_code(encoded));
 }
 
 uint16_t stored(float share) {

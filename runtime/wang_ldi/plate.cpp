@@ -11,12 +11,6 @@ namespace {
 constexpr uint32_t kGap_px = 8;
 constexpr uint8_t kLine = 110;
 
-std::array<double, 256> linear_of_codes() {
-    std::array<double, 256> linear{};
-    for (size_t code = 0; code < 256; ++code) linear[code] = linear_from_srgb(double(code) / 255);
-    return linear;
-}
-
 }  // namespace
 
 Plate::Plate(uint32_t cells, uint32_t columns, uint32_t width_px, uint32_t height_px)
@@ -34,14 +28,14 @@ uint8_t* Plate::pixel(uint32_t cell, uint32_t x, uint32_t y) {
 
 void Plate::put(uint32_t cell, const Warped& drawn) {
     assert(drawn.width_px == 2 * width_px_ && drawn.height_px == 2 * height_px_);
-    static const std::array<double, 256> kLinear = linear_of_codes();
+    const std::array<double, 256>& linear = linear_of_srgb_codes();
     for (uint32_t y = 0; y < height_px_; ++y)
         for (uint32_t x = 0; x < width_px_; ++x) {
             std::array<double, 3> sum{};
             for (uint32_t quarter = 0; quarter < 4; ++quarter) {
                 size_t at = size_t(2 * y + quarter / 2) * drawn.width_px + 2 * x + quarter % 2;
                 uint32_t colour = drawn.colours[at] == 0 ? 0xffffff : drawn.colours[at];
-                for (size_t c = 0; c < 3; ++c) sum[c] += kLinear[colour >> (8 * c) & 0xff] / 4;
+                for (size_t c = 0; c < 3; ++c) sum[c] += linear[colour >> (8 * c) & 0xff] / 4;
             }
             for (size_t c = 0; c < 3; ++c) pixel(cell, x, y)[c] = uint8_t(255 * srgb_from_linear(sum[c]) + 0.5);
         }

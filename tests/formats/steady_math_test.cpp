@@ -57,6 +57,7 @@ TEST(SteadyMath, HasTheBitsThatItHadElsewhere) {
 
 TEST(SteadyMath, KeepsEverySrgbCode) {
     for (int code = 0; code < 256; ++code) EXPECT_EQ(std::lround(255 * srgb_from_linear(linear_from_srgb(code / 255.0))), code);
+    for (int code = 0; code < 256; ++code) EXPECT_EQ(linear_from_srgb_code(uint8_t(code)), linear_from_srgb(code / 255.0));
 }
 
 }  // namespace

@@ -99,6 +99,47 @@ TEST_F(MeasuredPlanting, DrawsNearTilesAsGeometryUnlessItIsForbidden) {
     EXPECT_GT(images.predicted_error_px, 4);
 }
 
+// Counted before it is drawn: in the very frame from which it holds, and by what is drawn, not by what was foretold.
+TEST_F(MeasuredPlanting, KeepsABudgetOfTrianglesFromTheFrameOnThatItHolds) {
+    auto world = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
+    ASSERT_TRUE(world) << world.error().message;
+    ASSERT_TRUE(upload(*world));
+    auto target = gl::Target::make(96, 64, 1);
+    ASSERT_TRUE(target);
+    std::vector<view::Camera> cameras = walk(*world, 24);
+    auto flown = [&](const std::function<double(uint32_t)>& budget_at) {
+        auto method = make_method(*parse_method("wang-ldi@samples=1@geometry-m=12"), *world);
+        std::vector<Counters> frames;
+        for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
+            EXPECT_TRUE(method->set_triangles(budget_at(frame)));
+            method->decide(cameras[frame], frame);
+            frames.push_back(method->draw(*target));
+            EXPECT_TRUE(method->draw(*target) == frames.back()) << "drawn again";
+        }
+        return frames;
+    };
+    std::vector<Counters> free = flown([](uint32_t) { return 0; });
+    double least = INFINITY;
+    for (const Counters& frame : free) least = std::min(least, double(frame.triangle_count));
+    ASSERT_GT(least, 20000) << "plants enough that one of them is no share of it";
+    auto budget_at = [&](uint32_t frame) { return frame < 8 ? 0.8 * least : frame < 16 ? 0.4 * least : 0; };
+    std::vector<Counters> kept = flown(budget_at);
+    for (uint32_t frame = 0; frame < kept.size(); ++frame) {
+        double budget = budget_at(frame), triangles = double(kept[frame].triangle_count);
+        if (budget == 0) {
+            EXPECT_EQ(kept[frame].triangle_count, free[frame].triangle_count) << frame;
+            EXPECT_EQ(kept[frame].sample_count, free[frame].sample_count) << frame;
+            EXPECT_EQ(kept[frame].predicted_error_px, free[frame].predicted_error_px) << frame;
+            continue;
+        }
+        EXPECT_LE(triangles, budget) << frame;
+        EXPECT_GE(triangles, 0.9 * budget) << frame;
+        EXPECT_GT(kept[frame].predicted_error_px, 1) << "and it is said what that costs, in frame " << frame;
+    }
+    std::vector<Counters> more = flown([&](uint32_t) { return 1e9; });
+    for (uint32_t frame = 0; frame < more.size(); ++frame) EXPECT_TRUE(more[frame] == free[frame]) << frame;
+}
+
 TEST_F(MeasuredPlanting, ShowsMagentaWhereItHasHolesAndNoneWhereItIsThePlants) {
     auto world = world_of(R"(, "planting": {"models": ["plant.ovl"]})");
     ASSERT_TRUE(world) << world.error().message;

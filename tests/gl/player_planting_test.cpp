@@ -91,6 +91,30 @@ TEST_F(PlantingPlayer, FliesAsWithoutADelayButAFrameLate) {
     EXPECT_FALSE(bytes("now1.png") == bytes("now2.png"));
 }
 
+TEST_F(PlantingPlayer, KeepsABudgetOfTrianglesByTheErrorThatItAsks) {
+    write_scene(R"(, "planting": {"steepest": 50})");
+    std::string flown =
+        drawn(in_folder("scene.json"), "a.png") + "--frames 6 --camera 300,-560,240,0,-20 --camera 320,-500,240,0,-20 ";
+    ASSERT_EQ(play(flown + "--error-px 0.2"), 0) << output_;
+    nlohmann::json free = report()["frames"];
+    int budget = free[0]["triangles"].get<int>() / 2;
+    ASSERT_GT(budget, 400);
+    ASSERT_EQ(play(flown + "--error-px 0.2 --triangles " + std::to_string(budget)), 0) << output_;
+    for (const nlohmann::json& frame : report()["frames"]) {
+        EXPECT_LE(frame["triangles"].get<int>(), budget);
+        EXPECT_GE(frame["triangles"].get<int>(), 0.9 * budget);
+        EXPECT_GT(frame["asked_error_px"].get<double>(), 0.2);
+        EXPECT_LE(frame["times_listed"].get<int>(), 24);
+    }
+    ASSERT_EQ(play(flown + "--error-px 0.2 --triangles 1"), 0) << output_;
+    EXPECT_NEAR(report()["frames"][5]["asked_error_px"].get<double>(), 256, 0.01) << "as much as can be";
+    EXPECT_EQ(report()["frames"][5]["times_listed"], 1) << "and it is not searched for again";
+    ASSERT_EQ(play(flown + "--error-px 0.2 --triangles 100000000"), 0) << output_;
+    EXPECT_EQ(report()["frames"][5]["triangles"], free[5]["triangles"]);
+    EXPECT_EQ(report()["frames"][5]["asked_error_px"], 0.2);
+    ASSERT_EQ(play(flown + "--frame-ms 100000"), 0) << output_;
+}
+
 TEST_F(PlantingPlayer, StreamsItsImages) {
     std::string flown = " --frames 8 --camera 0,0,1.7,0,-4 --camera 0,0.1,1.7,0,-4 ";
     ASSERT_EQ(play(drawn(mounds_, "a%d.png") + flown), 0) << output_;

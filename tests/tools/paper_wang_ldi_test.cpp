@@ -135,6 +135,39 @@ TEST(Page, HoldsATableOfEveryPlantsAndNoMoreThanWasMeasured) {
     EXPECT_NE(planting_csv(one).find("sunflowers,own,corner,0.30000000000000004,0.5\n"), std::string::npos);
 }
 
+TEST(Race, IsWonByTheLeastOfItsRows) {
+    Flown one = flown();
+    FlownLand land;
+    land.name = "hills";
+    auto add = [&](const char* family, double x, double ms, std::optional<double> times) {
+        FieldRow row{"race", family, times ? "up to 174 m" : "", x};
+        row.ms_p50 = ms, row.own_times_as_fast = times;
+        land.rows.push_back(row);
+    };
+    add("Overlook", 1, 100, {}), add(kByProcessor, 1, 250, 2.5), add(kByOpenGl, 1, 900, 9);
+    add("Overlook", 2, 80, {}), add(kByProcessor, 2, 60, 0.75), add(kByOpenGl, 2, 400, 5);
+    one.plants[0].lands = {land};
+    std::vector<Target> targets = targets_of(one);
+    const Target &race = target_of(targets, "as geometry by the processor"),
+                 &opengl = target_of(targets, "as geometry by OpenGL");
+    EXPECT_DOUBLE_EQ(*race.measured[1], 0.75);
+    EXPECT_FALSE(race.measured[0]);
+    EXPECT_FALSE(race.is_reached(1));
+    EXPECT_EQ(race.note, "At 2 px, up to 174 m");
+    EXPECT_DOUBLE_EQ(*opengl.measured[1], 5);
+    EXPECT_TRUE(opengl.is_reached(1));
+    std::string csv = fields_csv(one), head = csv.substr(0, csv.find('\n'));
+    EXPECT_EQ(std::count(head.begin(), head.end(), ','), 25) << "charts take the ratio from column 26";
+    EXPECT_NE(csv.find("sunflowers,hills,race,geometry by OpenGL,\"up to 174 m\",1,900,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",9\n"), std::string::npos) << csv;
+    size_t at = csv.find("race,Overlook");
+    std::string row = csv.substr(at, csv.find('\n', at) - at);
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 25 - 2) << row;
+    std::string page = wang_page_html({one, {}, charts_of(one), true});
+    EXPECT_NE(page.find("race-hills-sunflowers.svg"), std::string::npos);
+    EXPECT_NE(page.find(short_number(0.75)), std::string::npos);
+}
+
 TEST(Report, ThatIsNoneIsRefusedWithItsFile) {
     ScratchFolder folder;
     for (const char* text : {"", "[]", "{}", "{\"tiles\": {\"count\": \"eight\"}, \"planting\": {}}"}) {

@@ -8,10 +8,6 @@
 namespace overlook::relief {
 namespace {
 
-double decode(uint8_t value) {
-    return overlook::linear_from_srgb(value / 255.0);
-}
-
 Colour blend(const Colour& a, const Colour& b, double share) {
     return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
 }
@@ -64,7 +60,7 @@ Surface trace_surface(const Field& field, uint32_t start, std::vector<uint8_t>& 
 }  // namespace
 
 Colour linear_from_srgb(uint8_t red, uint8_t green, uint8_t blue) {
-    return {decode(red), decode(green), decode(blue)};
+    return {linear_from_srgb_code(red), linear_from_srgb_code(green), linear_from_srgb_code(blue)};
 }
 
 uint8_t srgb_from_linear(double linear) {

@@ -80,7 +80,7 @@ std::vector<float> gltf_positions(const MeshData& mesh, const double middle[3], 
 // glTF wants colours in four bytes, linear.
 std::vector<uint8_t> gltf_colours(const std::vector<uint8_t>& srgb) {
     uint8_t linear[256];
-    for (int i = 0; i < 256; ++i) linear[i] = uint8_t(std::lround(255 * linear_from_srgb(i / 255.0)));
+    for (int i = 0; i < 256; ++i) linear[i] = uint8_t(std::lround(255 * linear_from_srgb_code(uint8_t(i))));
     std::vector<uint8_t> out;
     for (size_t i = 0; i < srgb.size(); i += 3)
         out.insert(out.end(), {linear[srgb[i]], linear[srgb[i + 1]], linear[srgb[i + 2]], uint8_t(255)});

@@ -9,18 +9,6 @@
 #include "formats/srgb.h"
 
 namespace overlook::measure {
-namespace {
-
-const std::array<double, 256>& linear_table() {
-    static const std::array<double, 256> kTable = [] {
-        std::array<double, 256> table{};
-        for (size_t i = 0; i < table.size(); ++i) table[i] = linear_from_srgb(double(i) / 255);
-        return table;
-    }();
-    return kTable;
-}
-
-}  // namespace
 
 Frame captured(const gl::Target& colour, const gl::Target& middle, const view::Camera& camera) {
     assert(colour.width_px() == middle.width_px() && colour.height_px() == middle.height_px() && middle.samples() == 1);
@@ -51,7 +39,7 @@ ImageRgb8 box_filtered(const ImageRgb8& image, uint32_t factor) {
     assert(factor >= 1 && image.width % factor == 0 && image.height % factor == 0);
     ImageRgb8 small{image.width / factor, image.height / factor, {}};
     small.pixels.resize(size_t(small.width) * small.height * 3);
-    const std::array<double, 256>& linear = linear_table();
+    const std::array<double, 256>& linear = linear_of_srgb_codes();
     size_t row_bytes = size_t(image.width) * 3;
     parallel_ranges(small.height, 8, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row) {

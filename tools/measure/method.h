@@ -40,11 +40,6 @@ struct Counters {
     bool operator==(const Counters&) const = default;
 };
 
-// What a budget holds: triangles, and of planted ground samples besides.
-inline double cost_of(const Counters& counters) {
-    return double(counters.triangle_count + counters.sample_count);
-}
-
 // Where the pixels of a frame came from, of a method that shows pictures again.
 struct Sources {
     static constexpr uint8_t kOwn = 64;    // a coarse surface's own colours, because no picture shows it
@@ -68,7 +63,7 @@ class Method {
     virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
     // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.
     virtual Counters draw(const gl::Target& target) = 0;
-    // From the next frame on, so much in all may be drawn a frame, as cost_of() counts. 0: as much as it takes. Returns whether
+    // From the next frame on, so many may be drawn a frame. 0: as many as it takes. Returns whether
     // the method keeps budgets.
     virtual bool set_triangles(double triangles) {
         static_cast<void>(triangles);

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "runtime/terrain/refine.h"
-#include "runtime/view/error_budget.h"
 #include "tools/measure/methods.h"
 #include "tools/measure/still.h"
 
@@ -35,21 +33,16 @@ double same_share(std::span<const wang_ldi::Shown> a, std::span<const wang_ldi::
 
 class Planting : public Method {
   public:
-    Planting(World& world, const MethodSpec& spec) : world_(world), asked_(planting_options(spec)) {
-        frames_ = still(wang_ldi::FrameDrawer::make(world.planted->planted(), world.planted->land(), asked_, streaming_of(spec)));
+    Planting(World& world, const MethodSpec& spec) : world_(world) {
+        frames_ = still(wang_ldi::FrameDrawer::make(world.planted->planted(), world.planted->land(), planting_options(spec),
+                                                    streaming_of(spec)));
     }
 
     void decide(const view::Camera& camera, uint32_t frame) override {
-        if (controller_) {
-            wang_ldi::FrameOptions options = asked_;
-            options.error_px = controller_->error_px();
-            if (options != frames_->options()) still(frames_->change(options));
-        }
         still(frames_->decide(camera, double(frame - last_frame_) * world_.step_s, terrain::kDefaultMorph));
         last_frame_ = frame;
         event_count_ = exchanged_tiles(before_, frames_->list());
         before_ = frames_->list();
-        is_counted_ = false;
     }
 
     Counters draw(const gl::Target& target) override {
@@ -68,35 +61,21 @@ class Planting : public Method {
         counters.event_count = event_count_;
         counters.missing_count = counts.images.stand_ins + counts.images.missing;
         counters.predicted_error_px = counts.predicted_error_px;
-        if (controller_ && !is_counted_) controller_->frame_done(cost_of(counters));
-        is_counted_ = true;
         return counters;
     }
 
-    // By the error asked, which moves levels as well as the terrain.
-    bool set_triangles(double cost) override {
-        if (cost == 0) {
-            controller_.reset();
-            still(frames_->change(asked_));
-            return true;
-        }
-        view::ErrorBudget budget{cost, asked_.error_px, false};
-        if (controller_)
-            controller_->set_budget(budget);
-        else
-            controller_.emplace(budget);
+    // By the error asked, which moves levels of plants and where images begin as well as the terrain.
+    bool set_triangles(double triangles) override {
+        frames_->set_budget(triangles);
         return true;
     }
 
   private:
     World& world_;
-    wang_ldi::FrameOptions asked_;
     std::unique_ptr<wang_ldi::FrameDrawer> frames_;
-    std::optional<view::ErrorController> controller_;
     wang_ldi::FieldList before_;
     uint64_t event_count_ = 0;
     uint32_t last_frame_ = 0;
-    bool is_counted_ = false;  // a frame may be drawn again
 };
 
 }  // namespace

@@ -8,12 +8,6 @@
 namespace overlook::wang_ldi {
 namespace {
 
-std::array<float, 256> linear_table() {
-    std::array<float, 256> table{};
-    for (int code = 0; code < 256; ++code) table[size_t(code)] = float(overlook::linear_from_srgb(code / 255.0));
-    return table;
-}
-
 // The texel of a place, not between texels: many rays average it.
 glm::vec3 texel_at(const Texture& texture, const glm::vec2& uv) {
     auto place = [](float at, uint32_t count) {
@@ -46,8 +40,7 @@ glm::vec3 albedo_at(const rays::Mesh& mesh, const Skin& skin, const Look& look, 
 }  // namespace
 
 float linear_from_srgb(uint8_t code) {
-    static const std::array<float, 256> kTable = linear_table();
-    return kTable[code];
+    return float(linear_from_srgb_code(code));
 }
 
 uint8_t srgb_from_linear(float value) {

@@ -33,7 +33,7 @@ inline Seen seen_along(const TextureSet& set, const DirectionalTexture& texture,
         double a = from.z + begin * along.z, b = from.z + end * along.z;
         if (texture.colours[t][3] == 0 || std::max(a, b) < box.low_m || std::min(a, b) > box.high_m) return true;
         double share = (1 - seen.coverage) * texture.colours[t][3] / 255;
-        for (int c = 0; c < 3; ++c) seen.colour[c] += share * overlook::linear_from_srgb(texture.colours[t][size_t(c)] / 255.0);
+        for (int c = 0; c < 3; ++c) seen.colour[c] += share * linear_from_srgb_code(texture.colours[t][size_t(c)]);
         seen.coverage += share;
         return seen.coverage < 0.999;
     });

@@ -42,8 +42,7 @@ void draw_above(const TextureSet& set, const DirectionalTexture& texture, uint32
             size_t texel = size_t((kAbove_px - 1 - y) * set.side_px / kAbove_px) * set.side_px + x * set.side_px / kAbove_px;
             Seen seen;
             seen.coverage = texture.colours[texel][3] / 255.0;
-            for (int c = 0; c < 3; ++c)
-                seen.colour[c] = seen.coverage * overlook::linear_from_srgb(texture.colours[texel][size_t(c)] / 255.0);
+            for (int c = 0; c < 3; ++c) seen.colour[c] = seen.coverage * linear_from_srgb_code(texture.colours[texel][size_t(c)]);
             pages.set(row, column, x, y, seen);
         }
 }

@@ -182,7 +182,7 @@ Result<std::vector<double>> costs_of(Stage& stage, const MethodSpec& spec, const
     for (uint32_t frame = 0; frame < cameras.size(); ++frame) {
         if (frame == cameras.size() / 2) method->set_triangles(share * budget);
         method->decide(cameras[frame], frame);
-        costs.push_back(cost_of(method->draw(*target)));
+        costs.push_back(double(method->draw(*target).triangle_count));
     }
     return costs;
 }
@@ -216,10 +216,9 @@ Result<Finding> halved_budget_by_method(Stage& stage, const MethodSpec& spec, co
     auto [least, most] = std::minmax_element(costs->begin() + ptrdiff_t(middle + kSettled), costs->end());
     auto settled = free->begin() + ptrdiff_t(middle + kSettled);
     finding.sentence = fmt::format(
-        "A frame takes {:.0f} {} without a budget{}. {:.0f} allowed from frame {} on: {:.0f} to {:.0f} drawn, {} frames "
+        "A frame takes {:.0f} triangles without a budget{}. {:.0f} allowed from frame {} on: {:.0f} to {:.0f} drawn, {} frames "
         "after that, where {:.0f} at least would be taken without.",
-        mean, stage.world.is_planted() ? "samples and triangles" : "triangles",
-        is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled,
+        mean, is_image(spec) ? ", those drawn into keys included" : "", share * budget, middle, *least, *most, kSettled,
         *std::min_element(settled, free->end()));
     say(found, share * budget, finding);
     Result<Shot> shot = shot_of(stage, spec, cameras.back(), uint32_t(cameras.size() - 1));

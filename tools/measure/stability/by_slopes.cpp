@@ -63,7 +63,7 @@ Result<World> painted(const World& world, Axis axis) {
 // Which place along the axis a colour is of, cells; nearest to `near` among those with its phase where that is not far off.
 // Nothing of a mixture.
 std::optional<double> place_of(const uint8_t* rgb, double near, double last) {
-    auto light = [&](int channel) { return linear_from_srgb(rgb[channel] / 255.0); };
+    auto light = [&](int channel) { return linear_from_srgb_code(rgb[channel]); };
     double red = light(0) - kMiddle, green = light(1) - kMiddle;
     if (std::hypot(red, green) < kReadable * kSwing) return std::nullopt;
     double about = light(2) * last;

@@ -47,14 +47,15 @@ std::string fields_csv(const Flown& flown) {
         "flip,"
         "w_luma,pop_index,floor_e_p99_flip,cell_covered_px,cell_hole_px,cell_widest_px,cell_largest_px,covered_px,hole_px,widest_"
         "px,"
-        "largest_px\n";
+        "largest_px,own_times_as_fast\n";
     for (const Plants& plants : flown.plants)
         for (const FlownLand& land : plants.lands)
             for (const FieldRow& row : land.rows)
-                csv += fmt::format("{},{},{},{},\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", plants.name, land.name,
+                csv += fmt::format("{},{},{},{},\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", plants.name, land.name,
                                    row.set, row.family, row.what, row.x, row.ms_p50, row.ms_p99, row.samples, row.triangles,
                                    row.tiles, row.outside_share, cell(row.e_p99), cell(row.e_mean), cell(row.w), cell(row.pop),
-                                   cell(row.floor_e_p99), gaps_csv(row.in_cell), gaps_csv(row.anywhere));
+                                   cell(row.floor_e_p99), gaps_csv(row.in_cell), gaps_csv(row.anywhere),
+                                   cell(row.own_times_as_fast));
     return csv;
 }
 
@@ -68,6 +69,10 @@ std::vector<Chart> charts_of_fields(const Plants& plants) {
                                   {{"Overlook", "7", "images, near tiles geometry"},
                                    {"geometry", "7", "all of it geometry within that error"},
                                    {"Overlook", "9", "samples warped (right)", true}}));
+        charts.push_back(chart_of(
+            named("race"), titled("How many times as fast as geometry in place of images"), plants.name, land, "race",
+            "pixels asked", "times as fast", "",
+            {{kByProcessor, "26", "as geometry by the processor"}, {kByOpenGl, "26", "as geometry by OpenGL, instanced"}}));
         charts.push_back(chart_of(named("error"), titled("E and W against the error asked"), plants.name, land, "error",
                                   "pixels asked", "E, 99th percentile (FLIP)", "W, luma",
                                   {{"Overlook", "13", "E, images"},

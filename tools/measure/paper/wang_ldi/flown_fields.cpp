@@ -12,9 +12,9 @@
 namespace overlook::measure::paper::wang {
 namespace {
 
-constexpr double kErrors_px[] = {0.5, 1, 2, 4, 8};
+constexpr double kErrors_px[] = {0.5, 1, 2, 4, 8}, kRacedErrors_px[] = {1, 2, 4, 8};
 constexpr double kRadii_tiles[] = {10, 20, 40, 100, 400, 1000};
-constexpr uint32_t kRadiusFrames = 4, kMagentaFrames = 2, kStreamedFrames = 160;
+constexpr uint32_t kRadiusFrames = 4, kMagentaFrames = 2, kStreamedFrames = 160, kRacedFrames = 8, kTextureSide_px = 32;
 
 // What is switched off, and how.
 struct Remedy {
@@ -49,6 +49,18 @@ class Runs {
             std::string within = fmt::format("@radius-m={}@error-px={}", kPlantsUpTo_m, error_px);
             add("wang-ldi" + near() + within, {"error", "Overlook", "", error_px});
             add(fmt::format("wang-ldi@geometry-m={}", 2 * kPlantsUpTo_m) + within, {"error", "geometry", "", error_px});
+        }
+    }
+    void add_race(const Land& land, const view::Camera& camera) {
+        for (double error_px : kRacedErrors_px) {
+            wang_ldi::FrameOptions options;
+            options.error_px = error_px;
+            uint32_t side_px = land.planted().textures() ? land.planted().textures()->side_px : kTextureSide_px;
+            double to_m = wang_ldi::field_options_of(land.images(), options, camera, side_px).ladder.texture_from_m;
+            std::string within = fmt::format("@error-px={}", error_px), reach = fmt::format("up to {:.0f} m", to_m);
+            add("wang-ldi" + within, {"race", "Overlook", "", error_px});
+            add(fmt::format("wang-ldi@geometry-m={}@geometry-by=1", to_m) + within, {"race", kByProcessor, reach, error_px});
+            add(fmt::format("wang-ldi@geometry-m={}@geometry-by=2", to_m) + within, {"race", kByOpenGl, reach, error_px});
         }
     }
     void add_remedies() {
@@ -96,6 +108,13 @@ Result<void> fly(World& world, Runs runs, std::vector<view::Camera> cameras, Com
         rows.push_back(std::move(runs.rows[i]));
     }
     return {};
+}
+
+void compare_race(std::vector<FieldRow>& rows) {
+    for (FieldRow& row : rows)
+        for (const FieldRow& own : rows)
+            if (row.set == "race" && own.set == "race" && row.family != "Overlook" && own.family == "Overlook" && row.x == own.x)
+                row.own_times_as_fast = row.ms_p50 / std::max(1e-3, own.ms_p50);
 }
 
 Picture picture(int figure, const std::string& name, const std::string& caption, ImageRgb8 image) {
@@ -184,6 +203,15 @@ void count_view(const Land& land, const view::Camera& camera, FlownLand& flown) 
 
 }  // namespace
 
+Result<void> race_geometry(Land& land, std::vector<view::Camera> cameras, const gl::Renderer& renderer,
+                           std::vector<FieldRow>& rows) {
+    Runs runs(land);
+    runs.add_race(land, cameras.front());
+    if (auto flew = fly(land.world, std::move(runs), std::move(cameras), Compared::none, renderer, rows); !flew) return flew;
+    compare_race(rows);
+    return {};
+}
+
 Result<FlownLand> fly_land(Land& land, const std::string& plants, const FieldOptionsAsked& asked, const gl::Renderer& renderer,
                            const std::function<void(double)>& done) {
     FlownLand flown{land.name, asked.width_px, asked.height_px, asked.judged_width_px, asked.judged_height_px, 0, 0, {}, {}, {}};
@@ -195,6 +223,9 @@ Result<FlownLand> fly_land(Land& land, const std::string& plants, const FieldOpt
         if (auto flew = fly(land.world, std::move(runs), std::move(walk.cameras), Compared::none, renderer, flown.rows); !flew)
             return tl::unexpected(flew.error());
     }
+    Walk walk = guide.walks(kRacedFrames, asked.width_px, asked.height_px)[0];
+    if (auto raced = race_geometry(land, std::move(walk.cameras), renderer, flown.rows); !raced)
+        return tl::unexpected(raced.error());
     done(0.1);
     std::vector<view::Camera> judged = guide.steps(asked.judged_frames, asked.judged_width_px, asked.judged_height_px);
     Runs compared(land), radii(land);

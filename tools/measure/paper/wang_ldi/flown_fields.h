@@ -14,18 +14,22 @@
 
 namespace overlook::measure::paper::wang {
 
+// Families of races beside "Overlook".
+constexpr char kByProcessor[] = "geometry by the processor", kByOpenGl[] = "geometry by OpenGL";
+
 // A run of some frames.
 struct FieldRow {
-    std::string set;     // "flight", "error", "radius" or "remedy"
-    std::string family;  // "Overlook", "the paper's", "geometry"
-    std::string what;    // of a flight its name, of a remedy what is switched off; empty
+    std::string set;     // "flight", "error", "radius", "remedy" or "race"
+    std::string family;  // "Overlook", "the paper's", "geometry"; of a race by whom as well
+    std::string what;    // of a flight its name, of a remedy what is switched off, of a race how far geometry goes; empty
     double x = 0;        // error asked in pixels, or radius in tiles
     double ms_p50 = 0, ms_p99 = 0;
-    double samples = 0, triangles = 0, tiles = 0;  // of the median frame
-    double outside_share = 0;                      // of the frames: the eye was outside the cell, as is said
-    std::optional<double> e_p99{}, e_mean{}, w{}, pop{};   // where it was compared
-    std::optional<double> floor_e_p99{};             // of all geometry at as many samples a pixel
-    std::optional<Gaps> in_cell{}, anywhere{};         // over magenta
+    double samples = 0, triangles = 0, tiles = 0;         // of the median frame
+    double outside_share = 0;                             // of the frames: the eye was outside the cell, as is said
+    std::optional<double> e_p99{}, e_mean{}, w{}, pop{};  // where it was compared
+    std::optional<double> floor_e_p99{};                  // of all geometry at as many samples a pixel
+    std::optional<Gaps> in_cell{}, anywhere{};            // over magenta
+    std::optional<double> own_times_as_fast{};            // of a race
 };
 
 // A walk with less memory than all images take.
@@ -57,6 +61,12 @@ struct FieldOptionsAsked {
 // The land's world must be uploaded. plants: for names of pictures. Fails as run_course, gaps_over_magenta and FrameDrawer::make.
 Result<FlownLand> fly_land(Land& land, const std::string& plants, const FieldOptionsAsked& asked, const gl::Renderer& renderer,
                            const std::function<void(double)>& done);
+
+// Overlook as it draws by itself beside the same picture with geometry in place of all images: plants at discrete levels of the
+// same error up to where textures begin, by Overlook's own hand and by OpenGL, instanced; the same far points beyond. At 1, 2, 4
+// and 8 px, each frame by all of them in turn, one sample a pixel. Adds the rows. Fails as run_course.
+Result<void> race_geometry(Land& land, std::vector<view::Camera> cameras, const gl::Renderer& renderer,
+                           std::vector<FieldRow>& rows);
 
 // The land walked with a quarter of the memory that its images take. Fails as FrameDrawer.
 Result<StreamedWalk> walk_streamed(Land& land, const std::vector<view::Camera>& cameras, double step_s);

@@ -1,0 +1,105 @@
+#include "runtime/view/counted_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overlook::view {
+namespace {
+
+constexpr double kRestFrom = 0.95, kAimFrom = 0.96, kAim = 0.975, kAimTo = 0.99;  // shares of the budget
+constexpr double kMostError_px = 256;
+constexpr double kLess = 0.002, kNarrow = 0.0005;  // of the error's logarithm: a step down, and what a search leaves open
+constexpr double kLeastStep = 0.01, kMostStep = 1;
+constexpr double kFromEnds = 0.05;  // of a bracket, that its next place keeps from both ends
+constexpr int kMostCounts = 22;
+
+}  // namespace
+
+// One search for one frame.
+class CountedError::Search {
+  public:
+    Search(double most, double least_error_px, const std::function<double(double)>& count)
+        : most_(most),
+          least_(std::log(least_error_px)),
+          greatest_(std::max(least_, std::log(kMostError_px))),
+          least_error_px_(least_error_px),
+          count_(count) {}
+
+    double from(double error_px) {
+        Sample here = at(std::clamp(std::log(std::max(error_px, least_error_px_)), least_, greatest_));
+        bool is_under = here.cost <= most_, is_at_end = here.log_error == (is_under ? least_ : greatest_);
+        if (is_at_end || (is_under && here.cost >= kRestFrom * most_)) return answer(here);
+        if (is_under) {
+            Sample finer = at(std::max(least_, here.log_error - kLess));
+            if (finer.cost > most_) return answer(here);
+            if (is_aim(finer) || finer.log_error == least_) return answer(finer);
+            here = finer;
+        }
+        Bracket found = bracket(here);
+        return answer(narrowed(found));
+    }
+    int count_count() const { return count_count_; }
+
+  private:
+    Sample at(double log_error) {
+        ++count_count_;
+        return last_ = {log_error, count_(error_px(log_error))};
+    }
+    // So that the least is asked for as it was said.
+    double error_px(double log_error) const { return log_error <= least_ ? least_error_px_ : std::exp(log_error); }
+    bool is_aim(const Sample& sample) const { return sample.cost >= kAimFrom * most_ && sample.cost <= kAimTo * most_; }
+    bool is_over(const Sample& sample) const { return sample.cost > kAimTo * most_; }
+
+    double answer(const Sample& sample) {
+        if (last_.log_error != sample.log_error) at(sample.log_error);
+        return error_px(sample.log_error);
+    }
+
+    // Steps up or down until the aim lies between two; both the same where an end comes first or one meets the aim.
+    Bracket bracket(Sample here) {
+        bool goes_up = is_over(here);
+        double times = 1;
+        while (true) {
+            double step =
+                std::clamp(std::abs(std::log(std::max(here.cost, 1e-6) / (kAim * most_))), kLeastStep, kMostStep) * times;
+            Sample next = at(std::clamp(here.log_error + (goes_up ? step : -step), least_, greatest_));
+            if (is_aim(next)) return {next, next};
+            if (is_over(next) != goes_up) return goes_up ? Bracket{here, next} : Bracket{next, here};
+            if (next.log_error <= least_ || next.log_error >= greatest_) return {next, next};
+            here = next, times *= 1.5;
+        }
+    }
+
+    Sample narrowed(Bracket ends) {
+        bool is_middle = false;
+        while (ends.under.log_error - ends.over.log_error > kNarrow && count_count_ < kMostCounts) {
+            double wide = ends.under.log_error - ends.over.log_error, over = std::log(ends.over.cost / (kAim * most_)),
+                   under = std::log(std::max(ends.under.cost, 1e-6) / (kAim * most_));
+            double share = is_middle ? 0.5 : std::clamp(over / (over - under), kFromEnds, 1 - kFromEnds);
+            Sample next = at(ends.over.log_error + share * wide);
+            if (is_aim(next)) return next;
+            (is_over(next) ? ends.over : ends.under) = next;
+            is_middle = !is_middle;  // secants alone may come from one side for ever
+        }
+        return ends.over.cost <= most_ ? ends.over : ends.under;
+    }
+
+    double most_, least_, greatest_, least_error_px_;
+    const std::function<double(double)>& count_;
+    Sample last_;
+    int count_count_ = 0;
+};
+
+double CountedError::error_px(double least_error_px, const std::function<double(double)>& count) {
+    if (!(most_ > 0)) {
+        count(least_error_px);
+        count_count_ = 1;
+        return error_px_ = least_error_px;
+    }
+    Search search(most_, least_error_px, count);
+    error_px_ = search.from(error_px_);
+    count_count_ = search.count_count();
+    return error_px_;
+}
+
+}  // namespace overlook::view

@@ -1,0 +1,40 @@
+// The error at which a frame keeps a budget whose cost is counted before it is drawn.
+//
+// Based on: T. Funkhouser, C. Sequin, Adaptive Display Algorithm for Interactive Frame Rates, 1993 (what a choice will cost is
+// known before it is drawn). Different here: one error for all there is, found by a bracketed secant from the frame before's on.
+// A controller that goes by what frames have cost (ErrorController) learns the same from pictures that were too dear.
+#pragma once
+
+#include <functional>
+
+namespace overlook::view {
+
+class CountedError {
+  public:
+    // Of a frame, from now on, in any one unit; 0: any cost.
+    void set_most(double most) { most_ = most; }
+    double most() const { return most_; }
+
+    // What to ask of the next frame: least_error_px > 0, or the error above it, up to 256 px, at which it costs 96 to 99 % of the
+    // budget; where cost jumps over that, the next error that costs no more than all of it. Rests while the last answer costs
+    // between 95 and 100 %. If the greatest error costs more, that.
+    // count: what the frame costs at an error, falling with it but for small ups; it is last asked for what is returned.
+    double error_px(double least_error_px, const std::function<double(double error_px)>& count);
+    // How often the last of these counted: 1 at rest or without a budget or if that cannot be kept, 3 at rest beside a jump, 24
+    // at most.
+    int count_count() const { return count_count_; }
+
+  private:
+    struct Sample {
+        double log_error = 0, cost = 0;
+    };
+    struct Bracket {
+        Sample over, under;  // costs more than the aim's upper end, and no more
+    };
+    class Search;
+
+    double most_ = 0, error_px_ = 0;
+    int count_count_ = 0;
+};
+
+}  // namespace overlook::view

@@ -1,0 +1,38 @@
+#include "runtime/wang_ldi/land_list.h"
+
+namespace overlook::wang_ldi {
+
+uint64_t LandList::triangle_count() const {
+    uint64_t count = cut.triangle_count();
+    for (const PlantList& of_model : plants) count += of_model.listed.frame.triangle_count;
+    return count;
+}
+
+Result<void> LandLister::list(const view::Camera& camera, const glm::dvec3& origin_m, const FrameOptions& options,
+                              uint32_t texture_side_px, double morph, LandList& out) const {
+    FrameOptions possible = options;
+    possible.has_geometry &= forms_ != nullptr;
+    Result<Field> field =
+        Field::of(planted_.parts(), field_options_of(planted_.images().set(), possible, camera, texture_side_px));
+    if (!field) return tl::unexpected(field.error());
+    out.field.emplace(std::move(*field)), out.error_px = options.error_px;
+    view::Camera on_terrain = camera;
+    on_terrain.position_m -= origin_m;
+    refiner_.cut_by_pixels(on_terrain, out.error_px, out.cut, morph);
+    out.field->list(camera, out.list, out.scratch);
+    list_plants(camera, out);
+    return {};
+}
+
+void LandLister::list_plants(const view::Camera& camera, LandList& out) const {
+    out.plants.clear();
+    if (forms_ == nullptr) return;
+    std::vector<PlantPlaces> by_model(planted_.planting().models.size());
+    for (const Item& item : out.list.items)
+        for (const Shown& shown : out.list.shown_of(item))
+            if (out.field->ladder().rungs[shown.rung].stage == Stage::geometry)
+                add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, by_model);
+    out.plants = plant_lists(*forms_, by_model, camera, out.error_px);
+}
+
+}  // namespace overlook::wang_ldi
