@@ -172,7 +172,7 @@ void FrameDrawer::list_plants(Slot& slot) const {
         for (const Shown& shown : slot.list.shown_of(item))
             if (slot.field->ladder().rungs[shown.rung].stage == Stage::geometry)
                 add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, by_model);
-    slot.plants = land_.plants->lists(slot.camera, by_model, options_.error_px);
+    slot.plants = land_.plants->lists(slot.camera, by_model, {options_.error_px, options_.plant_fade});
 }
 
 // And has its images at hand, or others in their place.

@@ -21,7 +21,7 @@ class PlantPen {
     // Columns [left, right) of the picture are drawn from now on.
     void begin(Canvas& canvas, int left, int right) { canvas_ = &canvas, left_ = left, right_ = right; }
     // By depth; what is hidden by what is drawn already costs little. shape: its model's.
-    void draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, float share);
+    void draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, const Door& door);
 
   private:
     // Of a vertex: which sides of the picture it is behind, or that it is behind the near plane, and that it cannot be brought
