@@ -22,7 +22,7 @@ enum class Show : uint32_t {
     whole,
     visible,       // where the visibility of its change of level is at most `share`
     dithered_in,   // on the share of the pixels that a screen door opens first
-    dithered_out,  // on the others
+    dithered_out,  // on the others, or on those of them that it opens next
     translucent,   // mixed over what is behind, with this share
 };
 
@@ -38,6 +38,7 @@ struct Item {
     glm::dvec3 normal{0};  // of the plane, in the world
     // Of the level runs [first_run, + run_count) of FrameList::runs; if none: all of it.
     uint32_t first_run = 0, run_count = 0;
+    double up_to = 1;  // of dithered_out: on the pixels that the door opens from share up to here
 
     bool operator==(const Item&) const = default;
 };

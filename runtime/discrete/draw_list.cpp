@@ -23,6 +23,7 @@ PackedItem packed(const ChainLayout& layout, const Item& item, const Placement& 
         glm::dvec3 in_eye(glm::dot(item.normal, axes.right), glm::dot(item.normal, axes.up), glm::dot(item.normal, axes.forward));
         made.line = glm::vec3(line_of(in_eye, view::focal_px(camera), camera.width_px, camera.height_px));
     }
+    if (item.show == Show::dithered_out) made.shift.x = float(item.up_to);
     if (item.show == Show::visible) {
         double period_m = double(layout.visibilities[item.change].period_m) * item.grain;
         const glm::dvec3& origin = layout.origin_m;

@@ -17,7 +17,7 @@ struct PackedItem {
     float scale = 1;
     float cosine = 1, sine = 0, share = 1, grain = 1;
     uint32_t id = 0, level = 0, show = 0, change = 0;  // id: instance + 1
-    glm::vec2 shift{0};
+    glm::vec2 shift{0};                                // of Show::dithered_out the first is Item::up_to
     uint32_t first_pose = 0, is_plain = 0;
     glm::vec3 line{0};  // split.h's line_of
     uint32_t side = 0;  // Item::Side

@@ -9,7 +9,7 @@ inline constexpr char kItemInputs[] = R"(
 layout(location = 4) in vec4 item_place;     // metres of the chain's origin from the eye; scale
 layout(location = 5) in vec4 item_numbers;   // cosine, sine, share, grain
 layout(location = 6) in uvec4 item_which;    // id, level, show, change
-layout(location = 7) in vec2 item_shift;     // of the visibility's lookup
+layout(location = 7) in vec2 item_shift;     // of the visibility's lookup; of what is dithered out up to where
 layout(location = 8) in uvec2 item_more;     // first pose, is plain
 layout(location = 9) in vec3 item_line;      // in gl_FragCoord: above 0 on the side that is drawn if side is 1, else if it is 2
 layout(location = 10) in uint item_side;     // 0: all is drawn
@@ -203,7 +203,7 @@ void main() {
     Item item = own_item();
     vec3 own = own_colour(item.is_plain);
     if (item.show == 2u && door() >= item.share) discard;
-    if (item.show == 3u && door() < item.share) discard;
+    if (item.show == 3u && (door() < item.share || door() >= item.shift.x)) discard;
     colour = vec4(encoded(own), item.show == 4u ? item.share : 1.0);
 }
 )";

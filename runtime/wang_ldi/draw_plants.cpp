@@ -14,12 +14,24 @@
 namespace overlook::wang_ldi {
 namespace {
 
-// Of plants that give way to images, on the pixels that a screen door opens first; else on all. After discrete's kDoor.
+// Behind a screen door on those samples of each pixel that the door opens, their shares in steps of a sample and the rest by
+// pixels (after J. Mulder, F. Groen, J. van Wijk, Pixel Masks for Screen-Door Transparency, 1998); else on all. After discrete's
+// kDoor.
 constexpr char kFading[] = "#define IS_FADING 1\n", kNotFading[] = "#define IS_FADING 0\n";
 constexpr char kLeave[] = R"(
 void leave_by_door(Item item) {
 #if IS_FADING
-    if (door() >= item.share) discard;
+    const uint order[4] = uint[](0u, 2u, 3u, 1u);  // those across from each other one after the other
+    bool is_out = item.show == 3u;
+    float from = is_out ? item.share : 0.0, to = is_out ? item.shift.x : item.share;
+    int count = max(gl_NumSamples, 1), mask = 0;
+    for (int i = 0; i < count; ++i) {
+        uint place = count == 4 ? order[i] : uint(i);
+        float at = (float(place) + door()) / float(count);
+        if (at >= from && at < to) mask |= 1 << i;
+    }
+    if (mask == 0) discard;
+    gl_SampleMask[0] = mask;
 #endif
 }
 )";
@@ -138,8 +150,9 @@ PlantCounts counts_of(std::span<const PlantList> lists) {
     return counts;
 }
 
-std::vector<PlantList> Plants::lists(const view::Camera& camera, std::span<const PlantPlaces> by_model, double error_px) const {
-    return plant_lists(forms_, by_model, camera, error_px);
+std::vector<PlantList> Plants::lists(const view::Camera& camera, std::span<const PlantPlaces> by_model,
+                                     const PlantAccuracy& accuracy) const {
+    return plant_lists(forms_, by_model, camera, accuracy);
 }
 
 void Plants::draw_list(const PlantList& list, const view::Camera& camera, double haze_per_m, const discrete::DrawOptions& options,

@@ -20,11 +20,11 @@ Result<void> LandLister::list(const view::Camera& camera, const glm::dvec3& orig
     on_terrain.position_m -= origin_m;
     refiner_.cut_by_pixels(on_terrain, out.error_px, out.cut, morph);
     out.field->list(camera, out.list, out.scratch);
-    list_plants(camera, out);
+    list_plants(camera, {options.error_px, options.plant_fade}, out);
     return {};
 }
 
-void LandLister::list_plants(const view::Camera& camera, LandList& out) const {
+void LandLister::list_plants(const view::Camera& camera, const PlantAccuracy& accuracy, LandList& out) const {
     out.plants.clear();
     if (forms_ == nullptr) return;
     std::vector<PlantPlaces> by_model(planted_.planting().models.size());
@@ -32,7 +32,7 @@ void LandLister::list_plants(const view::Camera& camera, LandList& out) const {
         for (const Shown& shown : out.list.shown_of(item))
             if (out.field->ladder().rungs[shown.rung].stage == Stage::geometry)
                 add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, by_model);
-    out.plants = plant_lists(*forms_, by_model, camera, out.error_px);
+    out.plants = plant_lists(*forms_, by_model, camera, accuracy);
 }
 
 }  // namespace overlook::wang_ldi

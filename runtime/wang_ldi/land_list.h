@@ -39,7 +39,7 @@ class LandLister {
                       uint32_t texture_side_px, double morph, LandList& out) const;
 
   private:
-    void list_plants(const view::Camera& camera, LandList& out) const;
+    void list_plants(const view::Camera& camera, const PlantAccuracy& accuracy, LandList& out) const;
 
     const PlantedField& planted_;
     const terrain::Refiner& refiner_;

@@ -47,7 +47,8 @@ inline Four linear_of(const std::array<uint16_t, 4>& texel) {
 
 bool PlantFill::lets_through(int x, int y) const {
     auto from_below = uint32_t(int(canvas_->height_px()) - 1 - y);
-    return kDoor[(from_below & 7) << 3 | (uint32_t(x) & 7)] < share_;
+    float at = kDoor[(from_below & 7) << 3 | (uint32_t(x) & 7)];
+    return at >= door_.from && at < door_.to;
 }
 
 // The one whose texels are as wide as pixels, along the axis of the picture along which they are densest.

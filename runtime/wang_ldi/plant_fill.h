@@ -46,12 +46,18 @@ struct PixelBox {
     bool is_empty() const { return left >= right || top >= bottom; }
 };
 
+// A screen door's pixels (Bayer 1973), as discrete's shaders have it, from one share up to another; of [0, 1) all.
+struct Door {
+    float from = 0, to = 1;
+
+    bool is_open() const { return from <= 0 && to >= 1; }
+};
+
 class PlantFill {
   public:
-    // Of the canvas columns [left, right). share: of the pixels, by a screen door (Bayer 1973) as discrete's shaders have it;
-    // from 1 on: all.
-    void begin(Canvas& canvas, int left, int right, float share) {
-        canvas_ = &canvas, left_ = left, right_ = right, share_ = share;
+    // Of the canvas columns [left, right), those pixels that the door lets through.
+    void begin(Canvas& canvas, int left, int right, const Door& door) {
+        canvas_ = &canvas, left_ = left, right_ = right, door_ = door, is_open_ = door.is_open();
     }
 
     PixelBox columns() const { return {left_, 0, right_, int(canvas_->height_px())}; }
@@ -90,7 +96,8 @@ class PlantFill {
 
     Canvas* canvas_ = nullptr;
     int left_ = 0, right_ = 0;
-    float share_ = 1;
+    Door door_;
+    bool is_open_ = true;
 };
 
 // An edge function: at a pixel's middle at least 0 inside. Steps: times pixels whole, of 64 bits, and what that lacks; or times
@@ -165,7 +172,7 @@ void PlantFill::fill(const Skin& skin, Filled& triangle, const PixelBox& box, co
             float w0 = edges[0].exact(e0) * of_area * a.nearness, w1 = edges[1].exact(e1) * of_area * b.nearness;
             float w2 = edges[2].exact(e2) * of_area * c.nearness, depth_m = 1 / (w0 + w1 + w2);
             if (std::bit_cast<uint32_t>(depth_m) > uint32_t(uint64_t(row[x]) >> 32)) continue;
-            if (share_ < 1 && !lets_through(box.left + x, y)) continue;
+            if (!is_open_ && !lets_through(box.left + x, y)) continue;
             if (level == nullptr) lights(triangle), level = &skin_level(skin, triangle);
             w0 *= depth_m, w1 *= depth_m, w2 *= depth_m;
             Four own = w0 * a.colour + w1 * b.colour + w2 * c.colour;

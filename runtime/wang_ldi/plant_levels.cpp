@@ -41,11 +41,75 @@ uint32_t coarsest_within(const PlantForm& form, double within_m) {
     return level;
 }
 
+// A level of a plant.
 struct InSight {
-    double distance_m = 0;
+    double distance_m = 0, error_px = 0;
     view::Cylinder cylinder;
     discrete::Item item;
 };
+
+// Both levels behind one door, of which the plant has the first `share`.
+void add_levels(const LevelMix& mix, double share, InSight of, std::vector<InSight>& seen) {
+    of.item.level = mix.coarser, of.item.share = mix.coarser_share * share;
+    of.item.show = of.item.share < 1 ? discrete::Show::dithered_in : discrete::Show::whole;
+    if (of.item.share > 0) seen.push_back(of);
+    if (mix.coarser_share >= 1) return;
+    of.item.level = mix.finer, of.item.show = discrete::Show::dithered_out, of.item.up_to = share;
+    seen.push_back(of);
+}
+
+std::vector<InSight> in_sight(const PlantForm& form, const PlantPlaces& places, const view::Camera& camera,
+                              const PlantAccuracy& accuracy) {
+    view::BoxErrorBound bound(camera);
+    std::vector<InSight> seen;
+    for (uint32_t p = 0; p < places.placements.size(); ++p) {
+        const discrete::Placement& placement = places.placements[p];
+        double scale = placement.scale;
+        view::Cylinder cylinder{placement.translation_m, scale * form.reach_m, scale * form.low_m, scale * form.high_m};
+        if (!bound.may_be_seen(cylinder)) continue;
+        view::BoxErrorBound::Sight sight = bound.of(cylinder);
+        LevelMix mix{0, 0, 1};
+        if (accuracy.error_px > 0) mix = levels_within(form, bound.metres(sight, accuracy.error_px) / scale, accuracy.fade);
+        double error = std::max(error_m(form.facts.levels[mix.finer]), error_m(form.facts.levels[mix.coarser]));
+        InSight one{glm::length(placement.translation_m - camera.position_m), bound.pixels(sight, scale * error), cylinder, {}};
+        one.item.instance = p;
+        add_levels(mix, double(places.shares[p]), one, seen);
+    }
+    return seen;
+}
+
+// Of an item that a side of the picture may cut, the runs of its level that are in it; none if all are. Returns the triangles.
+uint64_t add_runs(const PlantForm& form, const discrete::Placement& placement, const view::BoxErrorBound& bound,
+                  const view::Camera& camera, InSight& one, std::vector<discrete::TriangleRun>& runs) {
+    uint64_t all = form.facts.levels[one.item.level].triangle_count;
+    if (all <= kLeastInBunch || bound.is_within_sides(one.cylinder)) return all;
+    one.item.first_run = uint32_t(runs.size());
+    uint64_t count =
+        discrete::append_seen(form.bunches[one.item.level], placement, camera.position_m, view::sides_of(camera), runs);
+    if (count == all) runs.resize(one.item.first_run), one.item.first_run = 0;
+    if (count < all) one.item.run_count = uint32_t(runs.size()) - one.item.first_run;
+    return count;
+}
+
+ListedPlants listed_of(const PlantForm& form, const PlantPlaces& places, const view::Camera& camera, std::vector<InSight> seen) {
+    std::sort(seen.begin(), seen.end(), [](const InSight& a, const InSight& b) {
+        return std::tuple(a.item.level, a.distance_m, a.item.instance) < std::tuple(b.item.level, b.distance_m, b.item.instance);
+    });
+    view::BoxErrorBound bound(camera);
+    ListedPlants listed;
+    discrete::FrameList& list = listed.frame;
+    std::vector<bool> is_listed(places.placements.size());
+    for (InSight& one : seen) {
+        listed.error_px = std::max(listed.error_px, one.error_px);
+        uint32_t instance = one.item.instance;
+        uint64_t count = add_runs(form, places.placements[instance], bound, camera, one, list.runs);
+        if (count == 0) continue;
+        list.items.push_back(one.item), list.triangle_count += count;
+        list.in_view_count += !is_listed[instance], is_listed[instance] = true;
+    }
+    list.tested_count = places.placements.size();
+    return listed;
+}
 
 }  // namespace
 
@@ -67,56 +131,36 @@ PlantForm form_of(const discrete::Chain& chain) {
     return form;
 }
 
-ListedPlants plants_listed(const PlantForm& form, const PlantPlaces& places, const view::Camera& camera, double error_px) {
-    ListedPlants listed;
-    view::BoxErrorBound bound(camera);
-    std::array<glm::dvec3, 4> sides = view::sides_of(camera);
-    std::vector<InSight> seen;
-    for (uint32_t p = 0; p < places.placements.size(); ++p) {
-        const discrete::Placement& placement = places.placements[p];
-        double scale = placement.scale;
-        view::Cylinder cylinder{placement.translation_m, scale * form.reach_m, scale * form.low_m, scale * form.high_m};
-        if (!bound.may_be_seen(cylinder)) continue;
-        view::BoxErrorBound::Sight sight = bound.of(cylinder);
-        uint32_t level = error_px > 0 ? coarsest_within(form, bound.metres(sight, error_px) / scale) : 0;
-        listed.error_px = std::max(listed.error_px, bound.pixels(sight, scale * error_m(form.facts.levels[level])));
-        discrete::Show show = places.shares[p] < 1 ? discrete::Show::dithered_in : discrete::Show::whole;
-        seen.push_back({glm::length(placement.translation_m - camera.position_m),
-                        cylinder,
-                        {p, level, show, double(places.shares[p]), 0, 1}});
-    }
-    std::sort(seen.begin(), seen.end(), [](const InSight& a, const InSight& b) {
-        return std::tuple(a.item.level, a.distance_m, a.item.instance) < std::tuple(b.item.level, b.distance_m, b.item.instance);
-    });
-    discrete::FrameList& list = listed.frame;
-    for (InSight& one : seen) {
-        uint64_t all = form.facts.levels[one.item.level].triangle_count, count = all;
-        if (all > kLeastInBunch && !bound.is_within_sides(one.cylinder)) {
-            one.item.first_run = uint32_t(list.runs.size());
-            count = discrete::append_seen(form.bunches[one.item.level], places.placements[one.item.instance], camera.position_m,
-                                          sides, list.runs);
-            if (count == 0) continue;
-            if (count == all) list.runs.resize(one.item.first_run), one.item.first_run = 0;
-            if (count < all) one.item.run_count = uint32_t(list.runs.size()) - one.item.first_run;
-        }
-        list.items.push_back(one.item), list.triangle_count += count;
-    }
-    list.in_view_count = list.items.size(), list.tested_count = places.placements.size();
-    return listed;
+LevelMix levels_within(const PlantForm& form, double within_m, double fade) {
+    auto error = [&](uint32_t level) { return error_m(form.facts.levels[level]); };
+    uint32_t coarser = coarsest_within(form, within_m);
+    double from_m = error(coarser), to_m = from_m / (1 - fade);
+    for (size_t next = coarser + 1; next < form.facts.levels.size(); ++next) to_m = std::min(to_m, error(uint32_t(next)));
+    if (coarser == 0 || !(within_m < to_m)) return {coarser, coarser, 1};
+    uint32_t finer = coarser - 1;
+    while (finer > 0 && !(error(finer) < from_m)) --finer;
+    return {finer, coarser, (within_m - from_m) / (to_m - from_m)};
+}
+
+ListedPlants plants_listed(const PlantForm& form, const PlantPlaces& places, const view::Camera& camera,
+                           const PlantAccuracy& accuracy) {
+    return listed_of(form, places, camera, in_sight(form, places, camera, accuracy));
 }
 
 std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::span<const PlantPlaces> by_model,
-                                   const view::Camera& camera, double error_px) {
+                                   const view::Camera& camera, const PlantAccuracy& accuracy) {
     std::vector<PlantList> lists;
     for (uint32_t model = 0; model < forms.size(); ++model) {
-        PlantList whole{model, false, {}, {}}, fading{model, true, {}, {}};
-        for (size_t p = 0; p < by_model[model].placements.size(); ++p) {
-            PlantPlaces& of = by_model[model].shares[p] < 1 ? fading.places : whole.places;
-            of.placements.push_back(by_model[model].placements[p]), of.shares.push_back(by_model[model].shares[p]);
-        }
-        for (PlantList* list : {&whole, &fading}) {
-            list->listed = plants_listed(forms[model], list->places, camera, error_px);
-            if (!list->listed.frame.items.empty()) lists.push_back(std::move(*list));
+        const PlantPlaces& places = by_model[model];
+        std::vector<InSight> whole = in_sight(forms[model], places, camera, accuracy), fading;
+        std::erase_if(whole, [&](const InSight& one) {
+            bool is_fading = one.item.show != discrete::Show::whole;
+            if (is_fading) fading.push_back(one);
+            return is_fading;
+        });
+        for (bool is_fading : {false, true}) {
+            ListedPlants listed = listed_of(forms[model], places, camera, is_fading ? std::move(fading) : std::move(whole));
+            if (!listed.frame.items.empty()) lists.push_back({model, is_fading, places, std::move(listed)});
         }
     }
     return lists;

@@ -34,9 +34,9 @@ void PlantPen::stand(const discrete::Placement& placement) {
     for (Side& one : sides_) one.offset += far_m;
 }
 
-void PlantPen::draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, float share) {
+void PlantPen::draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, const Door& door) {
     level_ = &shape.levels[level];
-    fill_.begin(*canvas_, left_, right_, share);
+    fill_.begin(*canvas_, left_, right_, door);
     stand(placement);
     if (!may_be_seen(level_->all) || is_hidden(level_->all)) return;
     for (const ShapeBunch& bunch : level_->bunches)

@@ -22,7 +22,7 @@ class PlantPen {
     // Columns [left, right) of the picture are drawn from now on.
     void begin(Canvas& canvas, int left, int right) { canvas_ = &canvas, left_ = left, right_ = right; }
     // By depth; what is hidden by what is drawn already costs little. shape: its model's.
-    void draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, float share);
+    void draw(const PlantShape& shape, uint32_t level, const discrete::Placement& placement, const Door& door);
 
   private:
     // The light that a vertex sends, tinted, on the side of its normal and on the other.

@@ -16,6 +16,12 @@ struct Task {
     uint32_t list = 0, item = 0;
 };
 
+Door door_of(const discrete::Item& item) {
+    auto share = float(item.share);
+    if (item.show == discrete::Show::dithered_in) return {0, share};
+    return item.show == discrete::Show::dithered_out ? Door{share, float(item.up_to)} : Door{};
+}
+
 // The nearest first: they have most triangles, and hide what comes after them.
 std::vector<Task> tasks_of(const view::Camera& camera, std::span<const PlantList> lists) {
     std::vector<Task> tasks;
@@ -62,8 +68,7 @@ void PlantRaster::draw(const view::Camera& camera, std::span<const PlantShape> s
         for (const Task& task : tasks) {
             const PlantList& list = lists[task.list];
             const discrete::Item& item = list.listed.frame.items[task.item];
-            pen.draw(shapes[list.model], item.level, list.places.placements[item.instance],
-                     list.is_fading ? float(item.share) : 1);
+            pen.draw(shapes[list.model], item.level, list.places.placements[item.instance], door_of(item));
         }
     });
 }

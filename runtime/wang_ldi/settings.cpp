@@ -20,12 +20,13 @@ constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kSlopeSplats{"slope-splats", 0, 1, 1, true, true, true}, kFar{"far", 0, 1, 1, true, true, true},
     kDepth{"depth", 0, 1, 1, true, true, true}, kCuts{"cuts", 0, 1, 1, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 17> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 18> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
                                               SettingKind{"geometry", 0, 1, 1, true, true, true},
                                               SettingKind{"geometry-m", 0, 1e6, kDefaults.geometry_m, false, true},
+                                              SettingKind{"plant-fade", 0, 0.9, kDefaults.plant_fade, false, true},
                                               SettingKind{"warper", 0, 2, 0, true},
                                               SettingKind{"geometry-by", 0, 2, 0, true},
                                               SettingKind{"exact", 0, 1, 0, true, true, true},
@@ -65,6 +66,8 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.has_geometry = value != 0;
     } else if (name == "geometry-m") {
         options.geometry_m = value;
+    } else if (name == "plant-fade") {
+        options.plant_fade = value;
     } else if (name == "warper") {
         options.warper = Warper(int(value));
     } else if (name == "geometry-by") {

@@ -27,6 +27,7 @@ struct FrameOptions {
     double direction_fade = 0.1;  // of own: FieldOptions::direction_fade_share
     bool has_geometry = true;   // of own: tiles, where there are models, that no image can show within the error, and near ones,
     double geometry_m = 0;      // up to here; 0: as near as images were sampled for
+    double plant_fade = 0.2;    // of own: PlantAccuracy::fade
     bool is_exact = false;      // of own: warped as the paper's are, sample by sample, slowly
     bool fills_holes = true;    // of own, unless it is exact: small ones, as fill_holes
     bool widens_splats = true;  // of own: FieldOptions::widens_splats

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "runtime/wang_ldi/draw_plants.h"
 #include "runtime/wang_ldi/plant_raster.h"
@@ -97,15 +98,15 @@ struct Both {
     std::vector<float> depth;
     Warped by_processor;
 };
-void draw(Plants& plants, bool fades, Both& both, double haze_per_m = 0) {
+void draw(Plants& plants, bool fades, Both& both, double fade = 0) {
     auto target = gl::Target::make(kWide, kHigh, 1);
     ASSERT_TRUE(target);
     target->bind();
     const GLfloat black[] = {0, 0, 0, 1}, farthest = 0;
     glClearBufferfv(GL_COLOR, 0, black);
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    std::vector<PlantList> lists = plants.lists(camera(), places(fades), 1);
-    PlantCounts counts = plants.draw(*target, camera(), lists, haze_per_m);
+    std::vector<PlantList> lists = plants.lists(camera(), places(fades), {1, fade});
+    PlantCounts counts = plants.draw(*target, camera(), lists, 0);
     EXPECT_GT(counts.plant_count, 10u);
     EXPECT_EQ(counts.triangle_count, counts_of(lists).triangle_count);
     target->resolve();
@@ -149,10 +150,50 @@ TEST(PlantsByTheProcessor, AreThoseOfOpenGl) {
         ASSERT_TRUE(plants) << plants.error().message;
         for (bool fades : {false, true}) {
             Both both;
-            draw(*plants, fades, both);
+            draw(*plants, fades, both, fades ? 0.9 : 0);
             expect_alike(both);
         }
     }
+}
+
+// Two levels of one place, red and blue, before green: each pixel is of both by whole samples, and none shows what is behind.
+TEST(PlantsOfTwoLevels, ShareTheSamplesOfAPixel) {
+    OVERLOOK_NEEDS_SOFTWARE_RENDERER(context);
+    std::vector<discrete::Chain> of{discrete::made::empty_chain(glm::dvec3(-5), 10)};
+    for (bool is_coarse : {false, true}) {
+        discrete::Level level;
+        discrete::made::add_quad(of[0], level, {glm::dvec3{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}},
+                                 is_coarse ? discrete::made::Colour{0, 0, 255, 255} : discrete::made::Colour{255, 0, 0, 255});
+        discrete::made::end_level(of[0], std::move(level), is_coarse ? 0.02 : 0);
+    }
+    Planting one = planting();
+    one.models.resize(1), one.tiles[0].resize(1);
+    auto plants = Plants::make(of, one, glm::dvec3(0));
+    ASSERT_TRUE(plants) << plants.error().message;
+    view::Camera from;
+    from.width_px = 128, from.height_px = 96, from.fov_y_deg = 10, from.near_m = 0.05;
+    size_t mixed = 0;
+    for (double away_m = 5; away_m < 27; away_m += 1.3) {
+        auto target = gl::Target::make(128, 96, 4);
+        ASSERT_TRUE(target);
+        target->bind();
+        const GLfloat green[] = {0, 1, 0, 1}, farthest = 0;
+        glClearBufferfv(GL_COLOR, 0, green);
+        glClearBufferfv(GL_DEPTH, 0, &farthest);
+        std::vector<PlantPlaces> places{{{{{0, away_m, 0}}}, {1.0f}}};
+        std::vector<PlantList> lists = plants->lists(from, places, {1, 0.5});
+        plants->draw(*target, from, lists, 0);
+        target->resolve();
+        ImageRgb8 picture = target->read();
+        std::set<int> blues;
+        size_t behind = 0;
+        for (size_t p = 0; p < size_t(128) * 96; ++p)
+            behind += picture.pixels[3 * p + 1] > 0, blues.insert(picture.pixels[3 * p + 2]);
+        EXPECT_EQ(behind, 0u) << away_m;
+        EXPECT_LE(blues.size(), 2u) << "steps of a sample on either side of the share, " << away_m;
+        mixed += *blues.begin() > 0 && *blues.begin() < 255;
+    }
+    EXPECT_GT(mixed, 2u);
 }
 
 TEST(PlantsByTheProcessor, HaveFacesOfTheirOwnWithoutNormals) {

@@ -35,7 +35,7 @@ Warped drawn(const Stand& stand, const std::vector<PlantPlaces>& places, const v
     Warped picture;
     picture.clear(from.width_px, from.height_px);
     PlantRaster raster;
-    raster.draw(from, stand.shapes, {}, plant_lists(stand.forms, places, from, 1));
+    raster.draw(from, stand.shapes, {}, plant_lists(stand.forms, places, from, {1}));
     raster.lay_over(picture);
     return picture;
 }
@@ -81,10 +81,53 @@ TEST(PlantRaster, NearerThingsHideFartherOnes) {
     for (size_t p = 0; p < held.colours.size(); ++p) held.colours[p] = 0xff123456, held.depth_m[p] = 7;
     PlantRaster raster;
     raster.draw(from, stand.shapes, {},
-                plant_lists(stand.forms, std::vector<PlantPlaces>{{{{{0, 9, 0}}, {{0.9, 5, 0}}}, {1, 1}}}, from, 1));
+                plant_lists(stand.forms, std::vector<PlantPlaces>{{{{{0, 9, 0}}, {{0.9, 5, 0}}}, {1, 1}}}, from, {1}));
     raster.lay_over(held);
     EXPECT_EQ(held.depth_m[32 * 64 + 40], drawn(stand, {{{{{0.9, 5, 0}}}, {1}}}, from).depth_m[32 * 64 + 40]);
     EXPECT_EQ(held.colours[32 * 64 + 20], 0xff123456);
+}
+
+// A wall across the picture, red at its finest, blue in its coarser level.
+discrete::Chain wall() {
+    discrete::Chain chain = discrete::made::empty_chain(glm::dvec3(-5), 10);
+    for (bool is_coarse : {false, true}) {
+        discrete::Level level;
+        discrete::made::add_quad(chain, level, {glm::dvec3{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}},
+                                 is_coarse ? discrete::made::Colour{0, 0, 255, 255} : discrete::made::Colour{255, 0, 0, 255});
+        discrete::made::end_level(chain, std::move(level), is_coarse ? 0.03 : 0);
+    }
+    return chain;
+}
+
+// And where the plant itself gives way to something else, as many pixels as its share are left to both.
+TEST(PlantRaster, TwoLevelsOfAPlantFillAllPixelsTogether) {
+    Stand stand = stand_of(wall());
+    view::Camera from = camera(96, 64);
+    from.fov_y_deg = 10;
+    size_t mixed = 0;
+    for (float share : {1.0f, 0.5f})
+        for (double away_m = 5; away_m < 27; away_m += 0.7) {
+            std::vector<PlantPlaces> places{{{{{0, away_m, 0}}}, {share}}};
+            Warped picture;
+            picture.clear(from.width_px, from.height_px);
+            std::vector<PlantList> lists = plant_lists(stand.forms, places, from, {1, 0.5});
+            PlantRaster raster;
+            raster.draw(from, stand.shapes, {}, lists);
+            raster.lay_over(picture);
+            auto count = [&](uint32_t colour) {
+                return double(std::count(picture.colours.begin(), picture.colours.end(), colour)) /
+                       double(picture.colours.size());
+            };
+            double red = count(0xff0000ff), blue = count(0xffff0000);
+            EXPECT_EQ(red + blue, double(share)) << away_m;
+            for (const PlantList& list : lists)
+                for (const discrete::Item& item : list.listed.frame.items) {
+                    EXPECT_NEAR(item.level == 0 ? red : blue,
+                                item.show == discrete::Show::dithered_out ? item.up_to - item.share : item.share, 1.0 / 64);
+                    mixed += red > 0 && blue > 0;
+                }
+        }
+    EXPECT_GT(mixed, 10u);
 }
 
 // Its corners are farther from the picture's middle than corners may lie.
