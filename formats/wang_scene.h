@@ -6,7 +6,9 @@
 // Different: pixels hold any number of layers as compressed rows; depths have steps of equal ratio.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -53,6 +55,13 @@ struct PerspectiveLdi {
     uint32_t sample_count() const { return uint32_t(depths.size()); }
     bool operator==(const PerspectiveLdi&) const = default;
 };
+
+// Samples in the pixel that has most. O(pixels).
+inline uint32_t most_layers(const PerspectiveLdi& image) {
+    uint32_t most = 0;
+    for (size_t p = 0; p + 1 < image.first.size(); ++p) most = std::max(most, image.first[p + 1] - image.first[p]);
+    return most;
+}
 
 struct Scene {
     uint32_t columns = 0, rows = 0;

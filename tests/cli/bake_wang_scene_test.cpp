@@ -37,14 +37,15 @@ class BakeWangScene : public testing::Test {
     }
 };
 
+// Of six tiles a side from five eyes.
+Words small_and(const Words& more) {
+    Words words{"--only", "scene", "--scene-tiles", "6", "--scene-size", "64x48", "--scene-eyes", "5"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
 TEST_F(BakeWangScene, IsOneImageAndPicturesTheSameBytesWhateverThreads) {
-    Words small{"--only", "scene", "--scene-tiles", "6", "--scene-size", "64x48", "--scene-eyes", "5"};
-    auto with = [&](const Words& more) {
-        Words words = small;
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
-    };
-    Ran ran = bake("a.ovl", with({"--json", "--threads", "1"}));
+    Ran ran = bake("a.ovl", small_and({"--json", "--threads", "1"}));
     expect_done(ran);
     nlohmann::json report = nlohmann::json::parse(ran.out)["scene"];
     EXPECT_EQ(report["tiles_a_side"], 6);
@@ -53,7 +54,7 @@ TEST_F(BakeWangScene, IsOneImageAndPicturesTheSameBytesWhateverThreads) {
     EXPECT_GT(report["samples"], 300);
     EXPECT_GT(report["bytes"], 300);
     EXPECT_GE(report["most_layers"], 2);
-    expect_done(bake("b.ovl", small));
+    expect_done(bake("b.ovl", small_and({})));
     EXPECT_TRUE(text_of_file(folder_ / "a.ovl") == text_of_file(folder_ / "b.ovl"));
     Ran told = run({"baked", "info", folder_ / "a.ovl", "--json"});
     expect_done(told);
@@ -73,8 +74,12 @@ TEST_F(BakeWangScene, IsOneImageAndPicturesTheSameBytesWhateverThreads) {
     Ran proof = run({"baked", "verify", folder_ / "a.ovl", "--json"});
     expect_done(proof);
     EXPECT_EQ(nlohmann::json::parse(proof.out)["scene_pictures"], 14);
-    Ran all = bake("c.ovl", with({"--json", "--scene-layers", "all", "--light", "later", "--scene-camera", "1,2,1.5,450,-10,50",
-                                  "--scene-near-m", "0.5", "--scene-far-m", "6", "--scene-views", "0"}));
+}
+
+TEST_F(BakeWangScene, IsOfTheCameraAndDepthsAsked) {
+    Ran all =
+        bake("c.ovl", small_and({"--json", "--scene-layers", "all", "--light", "later", "--scene-camera", "1,2,1.5,450,-10,50",
+                                 "--scene-near-m", "0.5", "--scene-far-m", "6", "--scene-views", "0"}));
     expect_done(all);
     nlohmann::json of_all = nlohmann::json::parse(all.out)["scene"];
     EXPECT_EQ(of_all["pictures"], 1);

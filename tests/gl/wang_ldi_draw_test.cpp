@@ -1,11 +1,8 @@
 // Planted ground from frame to frame: what hides what, pictures that are late, images that are not there yet.
 #include <gtest/gtest.h>
 
-#include "runtime/wang_ldi/draw_land.h"
 #include "runtime/wang_ldi/rings.h"
-#include "tests/formats/scratch_folder.h"
-#include "tests/gl/fixture.h"
-#include "tests/gl/planting_file.h"
+#include "tests/gl/planted_frames.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -96,47 +93,21 @@ TEST(Composite, OfAFinerPictureEachSampleTakesTheOneWhereItLies) {
     EXPECT_TRUE(is_red_share(0, 1, 1));
 }
 
-// Mounds on a plain.
-class Frames : public ::testing::Test {
+class Frames : public PlantedFrames {
   protected:
     void SetUp() override {
-        std::string reason;
-        context_ = test::software_context(reason);
-        if (!context_) GTEST_SKIP() << "no software renderer: " << reason;
+        PlantedFrames::SetUp();
+        if (IsSkipped()) return;
         write_mounds(folder_ / "mounds.ovl");
-        auto file = container::Reader::open(folder_ / "mounds.ovl");
-        ASSERT_TRUE(file);
-        auto land = PlantedLand::read(std::move(*file), {}, {}, "");
-        ASSERT_TRUE(land) << land.error().message;
-        land_ = std::move(*land);
-        ASSERT_TRUE(land_->upload());
-    }
-    std::unique_ptr<FrameDrawer> frames(const FrameOptions& options, const ImageStreaming& streaming) {
-        auto made = FrameDrawer::make(land_->planted(), land_->land(), options, streaming);
-        EXPECT_TRUE(made) << made.error().message;
-        return std::move(*made);
-    }
-    static ImageStreaming waiting() {
-        ImageStreaming streaming;
-        streaming.settings.latency_frames = 1, streaming.waits = true;
-        return streaming;
+        read_land();
     }
     // A step north each frame.
     static view::Camera camera(int frame) { return head_camera({0.7, 0.9 + 0.8 * frame, 1.7}, 12); }
-    ImageRgb8 picture(FrameDrawer& frames, int frame, double turned_deg = 0) {
+    static ImageRgb8 picture(FrameDrawer& frames, int frame, double turned_deg = 0) {
         view::Camera turned = camera(frame);
         turned.heading_deg += turned_deg;
-        auto decided = frames.decide(turned, 0.1, 0);
-        EXPECT_TRUE(decided) << decided.error().message;
-        auto target = gl::Target::make(640, 480, 1);
-        EXPECT_TRUE(target);
-        frames.draw(*target, {});
-        return target->read();
+        return drawn(frames, turned);
     }
-
-    ScratchFolder folder_;
-    std::optional<gl::Context> context_;
-    std::unique_ptr<PlantedLand> land_;
 };
 
 TEST_F(Frames, ShowMoundsBelowTheSky) {

@@ -2,22 +2,18 @@
 #include <gtest/gtest.h>
 
 #include "formats/wang_ldi_layout.h"
-#include "runtime/wang_ldi/draw_land.h"
-#include "tests/formats/scratch_folder.h"
-#include "tests/gl/fixture.h"
-#include "tests/gl/planting_file.h"
+#include "tests/gl/planted_frames.h"
 #include "tests/runtime/discrete/chains.h"
 
 namespace overlook::wang_ldi {
 namespace {
 
-// Mounds on a plain, and a globe in the middle of every tile, which near ones are drawn with.
-class FramesWithGeometry : public ::testing::Test {
+// A globe in the middle of every tile, which near ones are drawn with.
+class FramesWithGeometry : public PlantedFrames {
   protected:
     void SetUp() override {
-        std::string reason;
-        context_ = test::software_context(reason);
-        if (!context_) GTEST_SKIP() << "no software renderer: " << reason;
+        PlantedFrames::SetUp();
+        if (IsSkipped()) return;
         write_mounds(folder_ / "mounds.ovl", true, true);
         auto writer = container::Writer::create(folder_ / "plant.ovl", discrete::kKind);
         ASSERT_TRUE(writer);
@@ -27,23 +23,9 @@ class FramesWithGeometry : public ::testing::Test {
         ASSERT_TRUE(written) << written.error().message;
         ASSERT_TRUE(writer->add_provenance({"test", "0", {}, {}}));
         ASSERT_TRUE(writer->commit());
-        auto file = container::Reader::open(folder_ / "mounds.ovl");
-        ASSERT_TRUE(file);
         scene::Planting planting;
         planting.models = {"plant.ovl"};
-        auto land = PlantedLand::read(std::move(*file), {}, planting, folder_ / "scene.json");
-        ASSERT_TRUE(land) << land.error().message;
-        land_ = std::move(*land);
-        auto models = land_->read_models();
-        ASSERT_TRUE(models) << models.error().message;
-        ASSERT_TRUE(land_->upload());
-    }
-    std::unique_ptr<FrameDrawer> frames(const FrameOptions& options) {
-        ImageStreaming streaming;
-        streaming.settings.latency_frames = 1, streaming.waits = true;
-        auto made = FrameDrawer::make(land_->planted(), land_->land(), options, streaming);
-        EXPECT_TRUE(made) << made.error().message;
-        return std::move(*made);
+        read_land(planting);
     }
     static FrameOptions drawn_by(Warper geometry_by) {
         FrameOptions options;
@@ -52,19 +34,10 @@ class FramesWithGeometry : public ::testing::Test {
     }
     // A step north each frame. haze_per_m: of the air.
     ImageRgb8 picture(FrameDrawer& frames, int frame, double haze_per_m = 0) {
-        auto decided = frames.decide(head_camera({0.7, 0.9 + 0.8 * frame, 1.7}, 12, -10), 0.1, 0);
-        EXPECT_TRUE(decided) << decided.error().message;
-        auto target = gl::Target::make(640, 480, 1);
-        EXPECT_TRUE(target);
         terrain::DrawOptions look;
         look.haze = haze_per_m / land_->land().drawing->haze_per_m({});
-        frames.draw(*target, look);
-        return target->read();
+        return drawn(frames, head_camera({0.7, 0.9 + 0.8 * frame, 1.7}, 12, -10), look);
     }
-
-    ScratchFolder folder_;
-    std::optional<gl::Context> context_;
-    std::unique_ptr<PlantedLand> land_;
 };
 
 // But for rounding: outlines to another pixel, light between corners to another tone.

@@ -226,7 +226,10 @@ TEST(WorkAllowance, WaitsForChangesThatAreUnderWay) {
             double last_step = 0, least = worker.demanded;
             for (int frame = 0; frame < 400; ++frame) {
                 double wanted = worker.done(allowance);
-                if (wanted != to) from = left > 0 ? from + (to - from) * (kChange_frames - left) / kChange_frames : to, to = wanted, left = kChange_frames;
+                if (wanted != to) {
+                    from = left > 0 ? from + (to - from) * (kChange_frames - left) / kChange_frames : to;
+                    to = wanted, left = kChange_frames;
+                }
                 double through = 1 - double(left) / kChange_frames;
                 double drawn = left == 0 ? to : is_both ? from + to : from + (to - from) * through;
                 ms = worker.ms(drawn);

@@ -34,7 +34,8 @@ Result<wang_ldi::PerspectiveView> view_of(const SceneArgs& args, const ImageArgs
         auto camera = view::parse_camera(args.camera);
         if (!camera)
             return bad_command("--scene-camera {}: x,y,z,heading,pitch[,fov_y] are wanted, in metres and degrees", args.camera);
-        view.position_m = camera->position_m, view.heading_deg = std::remainder(camera->heading_deg, 360.0), view.pitch_deg = camera->pitch_deg;
+        view.position_m = camera->position_m, view.pitch_deg = camera->pitch_deg;
+        view.heading_deg = std::remainder(camera->heading_deg, 360.0);
         // A camera without a field of view has the images'.
         if (std::count(args.camera.begin(), args.camera.end(), ',') > 4) view.fov_y_deg = camera->fov_y_deg;
     }
@@ -153,7 +154,7 @@ std::string scene_json(const wang_ldi::SceneMade& made, uint64_t stored_bytes) {
                                 {"far_m", image.view.far_m},
                                 {"cell_m", image.cell_m},
                                 {"samples", image.sample_count()},
-                                {"most_layers", made.image.most_layers},
+                                {"most_layers", most_layers(image)},
                                 {"bytes", stored_bytes},
                                 {"rays", made.image.rays},
                                 {"hits", made.image.hits},
@@ -171,7 +172,7 @@ void say_scene(const wang_ldi::SceneMade& made, uint64_t stored_bytes, const com
         fmt::format("one image of {} objects on {} x {} tiles: {} samples in up to {} layers, {:.2f} bytes each; {} rays, "
                     "{:.2f} % unseen, {:.1f} s",
                     with_commas(made.objects), made.scene.columns, made.scene.rows, with_commas(image.sample_count()),
-                    made.image.most_layers, double(stored_bytes) / std::max(1u, image.sample_count()),
+                    most_layers(image), double(stored_bytes) / std::max(1u, image.sample_count()),
                     with_commas(made.image.rays), 100 * double(image.unseen_share), made.image_s));
     command::note(common, fmt::format("{} pictures by rays, {:.1f} s", made.scene.pictures.size(), made.pictures_s));
 }

@@ -183,6 +183,32 @@ void print_text(const ordered_json& json, const std::optional<discrete::Chain>& 
         fmt::print("from: {} (xxh3-128 {})\n", input["name"].get<std::string>(), input["xxh3_128"].get<std::string>());
 }
 
+// What sections of these tags are stored in, or all others.
+uint64_t bytes_of_sections(const container::Reader& file, std::initializer_list<container::Tag> tags, bool is_others = false) {
+    uint64_t bytes = 0;
+    for (const container::Section& section : file.sections()) {
+        bool is_named = std::find(tags.begin(), tags.end(), section.tag) != tags.end();
+        if (is_named != is_others) bytes += section.stored_bytes;
+    }
+    return bytes;
+}
+
+// What a terrain or a mesh says of itself.
+Result<void> add_surface(const container::Reader& file, ordered_json& json) {
+    if (file.kind() == terrain::kKind) {
+        auto read = terrain::read(file);
+        if (!read) return tl::unexpected(read.error());
+        json["terrain"] = terrain_json(
+            *read, bytes_of_sections(file, {container::tag("TBLK"), container::tag("TDIR"), container::tag("TINF")}));
+    }
+    if (file.kind() == caveclod::kKind) {
+        auto read = caveclod::read(file);
+        if (!read) return tl::unexpected(read.error());
+        json["mesh"] = mesh_json(*read, bytes_of_sections(file, {container::tag("MSUR")}, true));  // without textures
+    }
+    return {};
+}
+
 Error no_sheet(const std::string& file) {
     return {Exit::bad_command, fmt::format("{}: there is a sheet of ground of Wang tiles only; leave --sheet out", file)};
 }
@@ -198,24 +224,7 @@ int info(const InfoArgs& args, const command::Common& common) {
                       {"kind", container::tag_text(file->kind())},
                       {"bytes", file->file_bytes()},
                       {"sections", sections_json(*file)}};
-    if (file->kind() == terrain::kKind) {
-        auto read = terrain::read(*file);
-        if (!read) return command::fail("baked info", read.error());
-        uint64_t terrain_bytes = 0;
-        for (const container::Section& section : file->sections())
-            if (section.tag == container::tag("TBLK") || section.tag == container::tag("TDIR") ||
-                section.tag == container::tag("TINF"))
-                terrain_bytes += section.stored_bytes;
-        json["terrain"] = terrain_json(*read, terrain_bytes);
-    }
-    if (file->kind() == caveclod::kKind) {
-        auto read = caveclod::read(*file);
-        if (!read) return command::fail("baked info", read.error());
-        uint64_t hierarchy_bytes = 0;  // without textures
-        for (const container::Section& section : file->sections())
-            if (section.tag != container::tag("MSUR")) hierarchy_bytes += section.stored_bytes;
-        json["mesh"] = mesh_json(*read, hierarchy_bytes);
-    }
+    if (auto added = add_surface(*file, json); !added) return command::fail("baked info", added.error());
     std::optional<discrete::Chain> chain;
     if (file->kind() == discrete::kKind) {
         auto read = discrete::read(*file);

@@ -12,16 +12,10 @@ using nlohmann::ordered_json;
 using wang_ldi::PerspectiveLdi;
 using wang_ldi::PerspectiveView;
 
-struct Layers {
-    uint32_t pixels = 0, most = 0;  // pixels with samples; samples of one
-};
-Layers layers_of(const PerspectiveLdi& image) {
-    Layers layers;
-    for (size_t p = 0; p + 1 < image.first.size(); ++p) {
-        uint32_t count = image.first[p + 1] - image.first[p];
-        layers.pixels += count > 0, layers.most = std::max(layers.most, count);
-    }
-    return layers;
+uint32_t pixels_with_samples(const PerspectiveLdi& image) {
+    uint32_t count = 0;
+    for (size_t p = 0; p + 1 < image.first.size(); ++p) count += image.first[p + 1] > image.first[p];
+    return count;
 }
 
 double bytes_per_sample(uint64_t bytes, const PerspectiveLdi& image) {
@@ -33,7 +27,6 @@ double bytes_per_sample(uint64_t bytes, const PerspectiveLdi& image) {
 std::string scene_json(const container::Reader& file, const wang_ldi::Scene& scene) {
     const PerspectiveLdi& image = scene.image;
     const PerspectiveView& view = image.view;
-    Layers layers = layers_of(image);
     uint64_t bytes = wang_ldi::stored_bytes_of_scene_image(file), samples = 0;
     for (const PerspectiveLdi& picture : scene.pictures) samples += picture.sample_count();
     return ordered_json{{"columns", scene.columns},
@@ -50,8 +43,8 @@ std::string scene_json(const container::Reader& file, const wang_ldi::Scene& sce
                         {"is_unlit", image.is_unlit},
                         {"has_normals", !image.normals.empty()},
                         {"samples", image.sample_count()},
-                        {"pixels_with_samples", layers.pixels},
-                        {"most_layers", layers.most},
+                        {"pixels_with_samples", pixels_with_samples(image)},
+                        {"most_layers", most_layers(image)},
                         {"stored_bytes", bytes},
                         {"bytes_per_sample", bytes_per_sample(bytes, image)},
                         {"unseen_share", double(image.unseen_share)},
@@ -63,10 +56,9 @@ std::string scene_json(const container::Reader& file, const wang_ldi::Scene& sce
 void print_scene(const container::Reader& file, const wang_ldi::Scene& scene) {
     const PerspectiveLdi& image = scene.image;
     const PerspectiveView& view = image.view;
-    Layers layers = layers_of(image);
     fmt::print("scene: {} x {} tiles as one image of {} x {} px, {}: {} samples, up to {} in a pixel, {:.2f} bytes each\n",
                scene.columns, scene.rows, view.width_px, view.height_px, image.is_unlit ? "unlit" : "lit",
-               with_commas(image.sample_count()), layers.most,
+               with_commas(image.sample_count()), most_layers(image),
                bytes_per_sample(wang_ldi::stored_bytes_of_scene_image(file), image));
     fmt::print("seen from ({:.4g}, {:.4g}, {:.4g}) m, heading {:g}, pitch {:g}, {:g} degrees high, {:.4g} to {:.4g} m deep\n",
                view.position_m.x, view.position_m.y, view.position_m.z, view.heading_deg, view.pitch_deg, view.fov_y_deg,

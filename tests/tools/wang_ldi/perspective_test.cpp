@@ -76,7 +76,7 @@ TEST_F(Perspective, WarpedBackIsThePictureByRaysPixelForPixel) {
     one.eyes = 1, many.eyes = 12, many.cell_m = 0.2;
     PerspectiveMade picture = made(one), image = made(many);
     EXPECT_GT(image.image.sample_count(), picture.image.sample_count() * 11 / 10) << "eyes beside it see more";
-    EXPECT_GT(image.most_layers, 2u);
+    EXPECT_GT(most_layers(image.image), 2u);
     EXPECT_EQ(image.rays, 12u * 96 * 72);
     Warped by_rays, warped;
     by_rays.clear(96, 72), warped.clear(96, 72);
@@ -131,7 +131,7 @@ TEST_F(Perspective, OfAllLayersHasEverySurfaceAlongEachRayOnce) {
             EXPECT_NEAR(depth_of_code(view_, all.image.depths[first + k]), depths[k], 1e-4 * depths[k]);
     }
     EXPECT_TRUE(all.image.is_unlit);
-    EXPECT_GT(all.most_layers, 10u);
+    EXPECT_GT(most_layers(all.image), 10u);
     EXPECT_EQ(all.image.normals.size(), all.image.sample_count());
 }
 

@@ -192,7 +192,6 @@ PerspectiveMade Collector::take(const Models& models, const Light& light) {
             image.depths.push_back(code), kept.push_back(at);
         }
         image.first.push_back(uint32_t(image.depths.size()));
-        made.most_layers = std::max(made.most_layers, image.first.back() - first);
     }
     image.normals.resize(is_picture ? 0 : kept.size());
     std::vector<glm::vec3> colours = colours_of(models, light, kept, image);
@@ -216,8 +215,9 @@ Result<PerspectiveMade> perspective_of(const Models& models, const TraceStage& s
             progress(kSeeing * (eye + 1) / options.eyes);
         }
         if (collector.is_full())
-            return impossible("a scene's image has more than {} samples; ask for fewer pixels, fewer eyes or a greater --scene-merge",
-                              with_commas(kMostPerspectiveSamples));
+            return impossible(
+                "a scene's image has more than {} samples; ask for fewer pixels, fewer eyes or a greater --scene-merge",
+                with_commas(kMostPerspectiveSamples));
         PerspectiveMade made = collector.take(models, light);
         progress(1);
         return made;

@@ -31,7 +31,6 @@ struct PerspectiveOptions {
 struct PerspectiveMade {
     PerspectiveLdi image;         // its normals left out where there is one eye, whose picture it is
     uint64_t rays = 0, hits = 0;  // hits: within the picture and its depths
-    uint32_t most_layers = 0;     // in a pixel
 };
 
 // Same arguments, same image with any number of threads. progress: called by this thread with the share that is done. Fails with

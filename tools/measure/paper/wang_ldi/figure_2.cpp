@@ -184,8 +184,7 @@ Result<Figure2> figure_2(const Subject& subject) {
     figure.width_px = image.view.width_px, figure.height_px = image.view.height_px;
     figure.tiles_a_side = subject.scene.scene.columns, figure.cell_m = image.cell_m;
     figure.unseen_share = double(image.unseen_share);
-    for (size_t p = 0; p + 1 < image.first.size(); ++p)
-        figure.most_layers = std::max(figure.most_layers, image.first[p + 1] - image.first[p]);
+    figure.most_layers = most_layers(image);
     if (auto added = add_one(subject, figure); !added) return tl::unexpected(added.error());
     const Tiles kTiles[] = {
         {subject.single, subject.single_scene, "a single tile", "figure-2c", "c: a single tile that repeats"},
