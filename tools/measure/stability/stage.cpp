@@ -76,4 +76,19 @@ double displacement_of(Method& method) {
     return promises->measured_px.empty() ? 0 : double(promises->measured_px.front());
 }
 
+Result<CourseResult> fly(Stage& stage, std::vector<view::Camera> cameras, double step_s, std::span<const MethodSpec> specs) {
+    Course course{{specs.begin(), specs.end()}, std::move(cameras), step_s};
+    add_floors(course.specs);
+    return run_course(stage.world, course, stage.renderer, stage.cache_folder, [](double) {});
+}
+
+std::optional<Shot> shown(const WorstFrame& worst) {
+    if (!worst.is_there) return std::nullopt;
+    return Shot{worst.frame, worst.test, worst.reference};
+}
+
+bool is_cut(const Stage& stage, const MethodSpec& spec) {
+    return stage.world.terrain != nullptr && !is_image(spec);
+}
+
 }  // namespace overlook::measure

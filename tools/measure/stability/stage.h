@@ -63,21 +63,30 @@ std::vector<view::Camera> cameras_of(const Stage& stage, const scene::Flight& fl
 Result<ImageRgb8> draw_once(Method& method, const view::Camera& camera, uint32_t frame, uint32_t samples);
 uint32_t samples_of(const MethodSpec& spec);
 
+// Whether what is decided is a cut of a terrain, which depends on the camera alone.
+bool is_cut(const Stage& stage, const MethodSpec& spec);
+
 // A frame of a new method and the reference's. Fails as ReferenceRenderer does.
 Result<Shot> shot_of(const Stage& stage, const MethodSpec& spec, const view::Camera& camera, uint32_t frame);
+
+// The frames by all specs and their floors beside the reference. Fails as run_course.
+Result<CourseResult> fly(Stage& stage, std::vector<view::Camera> cameras, double step_s, std::span<const MethodSpec> specs);
+std::optional<Shot> shown(const WorstFrame& worst);  // none if there is none
 
 // One of the case's ways to run: a finding for each spec, in their order. The specs are all of image methods, all of methods of
 // meshes, all of methods of chains, or none of them.
 using CaseRunner = Result<std::vector<Finding>> (*)(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
-// Cases judged on frames beside the reference: S01 and S09, S03, S04, S06, S07, S08, S16.
+// Cases judged on pops beside the reference: S01 and S09, S16.
 Result<std::vector<Finding>> run_dolly(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+Result<std::vector<Finding>> run_dropping(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// Cases judged on frames beside the reference: S03, S04, S06, S07, S08.
 Result<std::vector<Finding>> run_yaw(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_teleports(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_skimming(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_horizon(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_climb(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
-Result<std::vector<Finding>> run_dropping(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // Cases judged by pictures that should be the same: S12, S17, S18, S20.
 Result<std::vector<Finding>> run_moved_world(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
@@ -99,10 +108,12 @@ Result<std::vector<Finding>> run_turning_back(Stage&, const Case&, const scene::
 // where a flight shows none.
 Result<std::vector<Finding>> run_masts(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
-// Cases judged on what is decided: S02, S11, S19.
+// S19.
+Result<std::vector<Finding>> run_halved_budget(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
+
+// Cases judged on what is decided: S02, S11.
 Result<std::vector<Finding>> run_jitter(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 Result<std::vector<Finding>> run_slopes(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
-Result<std::vector<Finding>> run_halved_budget(Stage&, const Case&, const scene::Flight&, std::span<const MethodSpec>);
 
 // The greatest distance on the screen, pixels, between a source sample and where the cut of this spec draws it; and the greatest
 // that it predicts. unsure_m: how far the source's samples may stand from where the file has them.
