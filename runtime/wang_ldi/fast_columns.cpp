@@ -1,7 +1,6 @@
 #include "runtime/wang_ldi/fast_columns.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace overlook::wang_ldi {
 namespace {
@@ -99,23 +98,25 @@ void FastColumns<hiding>::add_all(uint32_t row, const Span& columns) {
     tools_.count += count;
 }
 
-// Without asking each column: eight samples are copied, and stay if they are shown.
+// Without a branch: every sample is copied, and stays if its column is shown.
 template <Hiding hiding>
 void FastColumns<hiding>::add_shown(uint32_t row, const Span& columns, const uint32_t* shown) {
-    constexpr uint32_t kAtATime = PreparedLdi::kPadding;
-    const uint32_t* first = first_of_row(row);
-    bool has_splats = !ldi_.splats.empty();
+    uint32_t begin = first_of_row(row)[columns.from], end = first_of_row(row)[columns.to];
+    const uint32_t* from = ldi_.places.data();
+    const uint8_t *colours = ldi_.colours.data(), *splats = ldi_.splats.data();
     uint32_t* places = tools_.places.data();
-    uint8_t *colours = tools_.colours.data(), *splats = tools_.splats.data();
-    uint32_t count = tools_.count, from = first[columns.from];
-    for (uint32_t column = columns.from; column < columns.to; ++column) {
-        uint32_t to = first[column + 1], here = (to - from) & shown[column];
-        for (uint32_t done = 0; done == 0 || done < here; done += kAtATime) {
-            std::memcpy(places + count + done, ldi_.places.data() + from + done, kAtATime * sizeof(uint32_t));
-            std::memcpy(colours + count + done, ldi_.colours.data() + from + done, kAtATime);
-            if (has_splats) std::memcpy(splats + count + done, ldi_.splats.data() + from + done, kAtATime);
+    uint8_t *kept_colours = tools_.colours.data(), *kept_splats = tools_.splats.data();
+    uint32_t count = tools_.count;
+    if (ldi_.splats.empty()) {
+        for (uint32_t s = begin; s < end; ++s) {
+            places[count] = from[s], kept_colours[count] = colours[s];
+            count += shown[from[s] & 0xffffu] & 1u;
         }
-        count += here, from = to;
+    } else {
+        for (uint32_t s = begin; s < end; ++s) {
+            places[count] = from[s], kept_colours[count] = colours[s], kept_splats[count] = splats[s];
+            count += shown[from[s] & 0xffffu] & 1u;
+        }
     }
     std::fill_n(tools_.rows.data() + tools_.count, count - tools_.count, uint16_t(row));
     tools_.count = count;
