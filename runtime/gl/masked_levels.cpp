@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "formats/srgb.h"
@@ -16,8 +17,28 @@ struct Linear {
     std::vector<std::array<float, 3>> plain;  // colours whatever their opacity
 };
 
+uint8_t code_of(float linear) {
+    return uint8_t(std::lround(255 * srgb_from_linear(double(linear))));
+}
+
+// Of each code the least light that is stored as it.
+std::array<float, 256> least_of_codes() {
+    std::array<float, 256> least{};
+    for (uint32_t code = 1; code < least.size(); ++code) {
+        uint32_t below = 0, from = std::bit_cast<uint32_t>(1.0f);  // as bits, which ascend as floats do
+        while (from - below > 1) {
+            uint32_t middle = below + (from - below) / 2;
+            (code_of(std::bit_cast<float>(middle)) >= code ? from : below) = middle;
+        }
+        least[code] = std::bit_cast<float>(from);
+    }
+    return least;
+}
+
+// As code_of, from a table: pictures have millions of pixels.
 uint8_t encoded(float linear) {
-    return uint8_t(std::lround(255 * srgb_from_linear(std::clamp(double(linear), 0.0, 1.0))));
+    static const std::array<float, 256> kLeast = least_of_codes();
+    return uint8_t(std::upper_bound(kLeast.begin() + 1, kLeast.end(), linear) - kLeast.begin() - 1);
 }
 
 Linear linear_of(const ImageRgba8& image) {

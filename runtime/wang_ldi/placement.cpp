@@ -66,6 +66,10 @@ Result<Placement> Placement::of(const Ground& ground, double tile_m, const Place
 }
 
 Verdict Placement::verdict(int64_t i, int64_t j) const {
+    return Verdict(verdicts_->at(i, j, [&] { return uint8_t(found_verdict(i, j)); }));
+}
+
+Verdict Placement::found_verdict(int64_t i, int64_t j) const {
     Rect rect = rect_of(i, j);
     GroundRange range = ground_->range(rect);
     if (!range.is_whole) return Verdict::no_ground;

@@ -1,5 +1,5 @@
 // Which tiles of the plane are planted, and how densely: by height, by slope, by painted pictures. A function of a tile's place
-// and nothing else, so that a world of any size is known without being kept.
+// and nothing else, so that a world of any size is known without being kept; what was asked about is remembered for a while.
 //
 // Based on: J. Shade, M. F. Cohen, D. P. Mitchell, Tiling Layered Depth Images, 2000, sections 5.1 (height, gradient, a painted
 // image) and 8 (fairing). Ours: corners of tiles at the planting's edge are bare, so that tiles planted in part end it.
@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "formats/image.h"
 #include "formats/result.h"
 #include "runtime/wang_ldi/ground.h"
+#include "runtime/wang_ldi/place_cache.h"
 #include "runtime/wang_ldi/pyramid.h"
 #include "runtime/wang_ldi/tiling.h"
 
@@ -86,12 +88,14 @@ class Placement {
 
   private:
     Placement() = default;
+    Verdict found_verdict(int64_t i, int64_t j) const;
 
     const Ground* ground_ = nullptr;
     double tile_m_ = 1;
     double lowest_m_ = 0, highest_m_ = 0, steepest_ = 0;
     PaintedMap mask_, density_;
     uint32_t fairing_tiles_ = 0;
+    std::shared_ptr<PlaceCache> verdicts_ = std::make_shared<PlaceCache>();
 };
 
 }  // namespace overlook::wang_ldi

@@ -233,6 +233,10 @@ uint32_t RandomTiling::black_variant(int64_t x, int64_t y, uint32_t variants) co
 }
 
 uint8_t RandomTiling::at(int64_t x, int64_t y) const {
+    return tiles_->at(x, y, [&] { return found_at(x, y); });
+}
+
+uint8_t RandomTiling::found_at(int64_t x, int64_t y) const {
     uint32_t proto = prototile(x, y);
     const std::vector<uint8_t>& variants = variants_[proto];
     auto count = uint32_t(variants.size());

@@ -10,11 +10,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "formats/result.h"
 #include "formats/wang_tiles.h"
+#include "runtime/wang_ldi/place_cache.h"
 
 namespace overlook::wang_ldi {
 
@@ -86,11 +88,11 @@ class RowTiling final : public PlaneTiling {
     Tiling tiling_;
 };
 
-// A tiling of the whole plane that keeps no tile. Edges between blocks of block() x block() tiles are coloured by a hash of their
-// place; what is inside follows from them. block() is 1 for a set that has a tile for every four colours (whose corners agree):
-// then at() is one look-up. Else it is the smallest with which every block's border can be filled, which is tried out once for
-// every border and all corners inside; sets of 12 tiles need 2, with borders of the planting too. A prototile with variants never
-// stands beside itself in the same variant.
+// A tiling of the whole plane that need keep no tile; some that were asked about are remembered. Edges between blocks of block()
+// x block() tiles are coloured by a hash of their place; what is inside follows from them. block() is 1 for a set that has a tile
+// for every four colours (whose corners agree): then at() is one look-up. Else it is the smallest with which every block's border
+// can be filled, which is tried out once for every border and all corners inside; sets of 12 tiles need 2, with borders of the
+// planting too. A prototile with variants never stands beside itself in the same variant.
 class RandomTiling final : public PlaneTiling {
   public:
     // Exit::impossible: "a set of 8 tiles permits no random access: some border of 4 x 4 tiles cannot be filled, or there are too
@@ -103,12 +105,14 @@ class RandomTiling final : public PlaneTiling {
   private:
     RandomTiling() = default;
     friend struct BlockFiller;
+    uint8_t found_at(int64_t x, int64_t y) const;
     uint8_t corner(int64_t x, int64_t y) const;
     uint8_t horizontal_edge(int64_t x, int64_t y) const;  // south of tile (x, y)
     uint8_t vertical_edge(int64_t x, int64_t y) const;    // west of tile (x, y)
     uint32_t prototile(int64_t x, int64_t y) const;
     uint32_t black_variant(int64_t x, int64_t y, uint32_t variants) const;
 
+    std::shared_ptr<PlaceCache> tiles_ = std::make_shared<PlaceCache>();
     uint64_t seed_ = 1;
     uint32_t block_ = 1;
     CornerAt corner_at_;
