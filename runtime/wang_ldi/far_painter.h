@@ -61,6 +61,7 @@ class FarPainter {
     void visit(int64_t i, int64_t j, uint32_t log2) {
         if (log2 == 0) return draw_tile(i, j, 0);
         Rect rect = parts_.placement->rect_of(i, j, int64_t(1) << log2);
+        if (!item_->is_planted_throughout && parts_.placement->coverage(rect) == Placement::Coverage::none) return;
         GroundRange range = ground_.bound(rect);
         if (log2 < item_->tiles_log2 && (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_))) return;
         if (log2 <= coarsest_log2_ && draw_square(i, j, log2)) return;
