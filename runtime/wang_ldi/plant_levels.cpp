@@ -1,6 +1,7 @@
 #include "runtime/wang_ldi/plant_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -78,14 +79,19 @@ std::vector<InSight> in_sight(const PlantForm& form, const PlantPlaces& places, 
     return seen;
 }
 
+struct PictureSides {
+    explicit PictureSides(const view::Camera& camera) : bound(camera), eye_m(camera.position_m), sides(view::sides_of(camera)) {}
+    view::BoxErrorBound bound;
+    glm::dvec3 eye_m;
+    std::array<glm::dvec3, 4> sides;
+};
 // Of an item that a side of the picture may cut, the runs of its level that are in it; none if all are. Returns the triangles.
-uint64_t add_runs(const PlantForm& form, const discrete::Placement& placement, const view::BoxErrorBound& bound,
-                  const view::Camera& camera, InSight& one, std::vector<discrete::TriangleRun>& runs) {
+uint64_t add_runs(const PlantForm& form, const discrete::Placement& placement, const PictureSides& picture, InSight& one,
+                  std::vector<discrete::TriangleRun>& runs) {
     uint64_t all = form.facts.levels[one.item.level].triangle_count;
-    if (all <= kLeastInBunch || bound.is_within_sides(one.cylinder)) return all;
+    if (all <= kLeastInBunch || picture.bound.is_within_sides(one.cylinder)) return all;
     one.item.first_run = uint32_t(runs.size());
-    uint64_t count =
-        discrete::append_seen(form.bunches[one.item.level], placement, camera.position_m, view::sides_of(camera), runs);
+    uint64_t count = discrete::append_seen(form.bunches[one.item.level], placement, picture.eye_m, picture.sides, runs);
     if (count == all) runs.resize(one.item.first_run), one.item.first_run = 0;
     if (count < all) one.item.run_count = uint32_t(runs.size()) - one.item.first_run;
     return count;
@@ -95,14 +101,14 @@ ListedPlants listed_of(const PlantForm& form, const PlantPlaces& places, const v
     std::sort(seen.begin(), seen.end(), [](const InSight& a, const InSight& b) {
         return std::tuple(a.item.level, a.distance_m, a.item.instance) < std::tuple(b.item.level, b.distance_m, b.item.instance);
     });
-    view::BoxErrorBound bound(camera);
+    PictureSides picture(camera);
     ListedPlants listed;
     discrete::FrameList& list = listed.frame;
     std::vector<bool> is_listed(places.placements.size());
     for (InSight& one : seen) {
         listed.error_px = std::max(listed.error_px, one.error_px);
         uint32_t instance = one.item.instance;
-        uint64_t count = add_runs(form, places.placements[instance], bound, camera, one, list.runs);
+        uint64_t count = add_runs(form, places.placements[instance], picture, one, list.runs);
         if (count == 0) continue;
         list.items.push_back(one.item), list.triangle_count += count;
         list.in_view_count += !is_listed[instance], is_listed[instance] = true;

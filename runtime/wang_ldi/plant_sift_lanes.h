@@ -1,46 +1,14 @@
-// How plant_sift.h does it, eight at a time. Included once by each of its compilations, which differ in what the compiler may
-// use: so nothing in here may have a name that others see, nor call what others compile.
+// How plant_sift.h does it, eight at a time: lanes.h says what holds for its compilations.
 //
 // Based on: J. Pineda, A Parallel Algorithm for Polygon Rasterization, 1988 (edge functions).
 #pragma once
 
+#include "runtime/wang_ldi/lanes.h"
 #include "runtime/wang_ldi/plant_sift.h"
 
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kLanes = 8;
-using Floats = float __attribute__((vector_size(32)));
-using Ints = int32_t __attribute__((vector_size(32)));
-
-template <class Vector, class Number>
-inline void load(Vector& into, const Number* from, uint32_t count) {
-    if (count >= kLanes)
-        __builtin_memcpy(&into, from, sizeof into);
-    else
-        for (uint32_t lane = 0; lane < kLanes; ++lane) into[lane] = from[lane < count ? lane : 0];
-}
-template <class Vector, class Number>
-inline void store(Number* to, const Vector& from, uint32_t count) {
-    if (count >= kLanes)
-        __builtin_memcpy(to, &from, sizeof from);
-    else
-        for (uint32_t lane = 0; lane < count; ++lane) to[lane] = from[lane];
-}
-template <class Vector>
-inline Vector chosen(const Ints& mask, const Vector& one, const Vector& other) {
-    return (Vector)(((Ints)one & mask) | ((Ints)other & ~mask));
-}
-inline Ints lesser(const Ints& a, const Ints& b) {
-    return chosen(a < b, a, b);
-}
-inline Ints greater(const Ints& a, const Ints& b) {
-    return chosen(a > b, a, b);
-}
-inline Ints floor_of(const Floats& value) {
-    Ints towards_zero = __builtin_convertvector(value, Ints);
-    return towards_zero + (__builtin_convertvector(towards_zero, Floats) > value);
-}
 inline Floats along(const float (&axis)[4], const Floats& x, const Floats& y, const Floats& z) {
     return axis[0] * x + axis[1] * y + axis[2] * z + axis[3];
 }

@@ -1,42 +1,12 @@
-// How project_samples does it, eight samples at a time. Included once by each of its compilations, which differ in what the
-// compiler may use: so nothing in here may have a name that others see, nor call what others compile.
+// How project_samples does it, eight samples at a time: lanes.h says what holds for its compilations.
 #pragma once
 
+#include "runtime/wang_ldi/lanes.h"
 #include "runtime/wang_ldi/project_samples.h"
 
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint32_t kLanes = 8;
-using Floats = float __attribute__((vector_size(32)));
-using Ints = int32_t __attribute__((vector_size(32)));
-using Words = uint32_t __attribute__((vector_size(32)));
-using Shorts = uint16_t __attribute__((vector_size(16)));
-using Bytes = uint8_t __attribute__((vector_size(8)));
-
-template <class Vector, class Number>
-inline void load(Vector& into, const Number* from) {
-    __builtin_memcpy(&into, from, sizeof into);
-}
-template <class Vector, class Number>
-inline void store(Number* to, const Vector& from) {
-    __builtin_memcpy(to, &from, sizeof from);
-}
-// Lanes of one where the mask has all bits, of the other where it has none.
-template <class Vector>
-inline Vector chosen(const Ints& mask, const Vector& one, const Vector& other) {
-    return (Vector)(((Ints)one & mask) | ((Ints)other & ~mask));
-}
-inline Ints floor_of(const Floats& value) {
-    Ints towards_zero = __builtin_convertvector(value, Ints);
-    return towards_zero + (__builtin_convertvector(towards_zero, Floats) > value);
-}
-inline Ints lesser(const Ints& a, const Ints& b) {
-    return chosen(a < b, a, b);
-}
-inline Ints greater(const Ints& a, const Ints& b) {
-    return chosen(a > b, a, b);
-}
 inline int64_t sum_of(const Ints& lanes) {
     int64_t sum = 0;
     for (uint32_t lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
