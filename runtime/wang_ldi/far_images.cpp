@@ -122,13 +122,17 @@ FarImages::FarImages(const TextureSet& textures)
     : side_px_(textures.side_px),
       levels_(texture_levels(textures.side_px)),
       tiles_(textures.tile_count),
-      directions_(textures.direction_count) {
+      directions_(textures.direction_count),
+      least_needs_(size_t(tiles_) * levels_, std::numeric_limits<float>::infinity()),
+      levels_of_(levels_) {
     for (uint32_t context = 0; context < textures.context_count; ++context)
         for (uint32_t tile = 0; tile < tiles_; ++tile)
             for (uint32_t direction = 0; direction < directions_; ++direction) {
                 const DirectionalTexture& texture = textures.textures[size_t(textures.index_of(context, tile, direction))];
-                for (uint32_t level = 0; level < levels_; ++level)
+                for (uint32_t level = 0; level < levels_; ++level) {
                     pictures_.push_back(PictureMaker(textures, texture, tile, direction, level).made());
+                    take(pictures_.back(), tile, level);
+                }
                 FarMean mean;
                 mean.breadth = float(breadth_of(direction, directions_));
                 if (FarBox box(textures, texture.heights.back()); texture.colours.back()[3] > 0 && box.tall_m() > 0) {
@@ -139,8 +143,17 @@ FarImages::FarImages(const TextureSet& textures)
             }
 }
 
+void FarImages::take(const FarPicture& picture, uint32_t tile, uint32_t level) {
+    if (picture.by_need.empty()) return;
+    float& least = least_needs_[size_t(tile) * levels_ + level];
+    least = std::min(least, picture.by_need.front().needs);
+    LevelFacts& of = levels_of_[level];
+    of.widest_m = std::max(of.widest_m, picture.wide_m), of.least_high_m = std::min(of.least_high_m, picture.high_m);
+}
+
 uint64_t FarImages::bytes() const {
-    uint64_t bytes = pictures_.size() * sizeof(FarPicture) + means_.size() * sizeof(FarMean);
+    uint64_t bytes =
+        pictures_.size() * sizeof(FarPicture) + means_.size() * sizeof(FarMean) + least_needs_.size() * sizeof(float);
     for (const FarPicture& picture : pictures_)
         bytes += picture.first.size() * sizeof(uint32_t) + 2 * picture.samples.size() * sizeof(FarSample);
     return bytes;

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -68,15 +69,26 @@ class FarImages {
     const FarMean& mean(uint32_t context, uint32_t tile, uint32_t direction) const {
         return means_[index_of(context, tile, direction)];
     }
+    // Of a tile at a level: no point of any of its pictures needs less.
+    float least_need(uint32_t tile, uint32_t level) const { return least_needs_[size_t(tile) * levels_ + level]; }
+    // Of all pictures of a level: none has wider points, nor boxes that are less high if it has any points.
+    float widest_m(uint32_t level) const { return levels_of_[level].widest_m; }
+    float least_high_m(uint32_t level) const { return levels_of_[level].least_high_m; }
     uint64_t bytes() const;
 
   private:
+    struct LevelFacts {
+        float widest_m = 0, least_high_m = std::numeric_limits<float>::infinity();
+    };
+    void take(const FarPicture& picture, uint32_t tile, uint32_t level);
     size_t index_of(uint32_t context, uint32_t tile, uint32_t direction) const {
         return (size_t(context) * tiles_ + tile) * directions_ + direction;
     }
     uint32_t side_px_ = 0, levels_ = 0, tiles_ = 0, directions_ = 0;
     std::vector<FarPicture> pictures_;  // [contexts, tiles, directions, levels]
     std::vector<FarMean> means_;        // [contexts, tiles, directions]
+    std::vector<float> least_needs_;    // [tiles, levels]
+    std::vector<LevelFacts> levels_of_;
 };
 
 // How evenly spread numbers 0 <= it < 1 are for places of a lattice: any few beside each other are far apart.

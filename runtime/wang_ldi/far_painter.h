@@ -31,7 +31,7 @@ class FarPainter {
         coarsest_log2_ = 0, widest_m_ = 1.5 * tile_m_;
         if (item.tiles_log2 > 0 && rungs[item.last_rung].stage == Stage::colour) coarsest_log2_ = rungs[item.last_rung].level;
         widest_m_ = std::ldexp(widest_m_, int(coarsest_log2_));
-        visit(item.i, item.j, item.tiles_log2);
+        visit(item.i, item.j, item.tiles_log2, {});
     }
 
     // For drawing a tile texel by texel, beside images of it.
@@ -58,19 +58,23 @@ class FarPainter {
 
   private:
     // A square of tiles: as one texel, or in strips, or its quarters, as the rung of its middle says and how flat it looks.
-    void visit(int64_t i, int64_t j, uint32_t log2) {
-        if (log2 == 0) return draw_tile(i, j, 0);
+    // block: of a square that it is part of.
+    void visit(int64_t i, int64_t j, uint32_t log2, FarBlock block) {
+        if (log2 == 0) return draw_tile(i, j, 0, block);
+        if (block.is_of_one && log2 == block.log2() && double(spread_at(i >> log2, j >> log2)) >= block.share_most) return;
         Rect rect = parts_.placement->rect_of(i, j, int64_t(1) << log2);
         if (!item_->is_planted_throughout && parts_.placement->coverage(rect) == Placement::Coverage::none) return;
         GroundRange range = ground_.bound(rect);
         if (log2 < item_->tiles_log2 && (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_))) return;
-        if (log2 <= coarsest_log2_ && draw_square(i, j, log2)) return;
+        if (!block.is_of_one) block = view_.block_of(rect, range, far_);
+        bool is_coarser = block.is_of_one && log2 > block.log2();  // than its texels
+        if (log2 <= coarsest_log2_ && !is_coarser && draw_square(i, j, log2)) return;
         if (view_.is_flat(rect, range) && draw_strips(i, j, log2)) return;
         int64_t half = int64_t(1) << (log2 - 1);
         glm::dvec2 middle = parts_.placement->rect_of(i + half, j + half).low_m, eye(eye_.position_m);
         int near_x = eye.x >= middle.x, near_y = eye.y >= middle.y;
         for (auto [x, y] : {std::pair(1 - near_x, 1 - near_y), {1 - near_x, near_y}, {near_x, 1 - near_y}, {near_x, near_y}})
-            visit(i + x * half, j + y * half, log2 - 1);
+            visit(i + x * half, j + y * half, log2 - 1, block);
     }
 
     // The level of a rung in tiles along a texel's side (their logarithm); of what is bare as of the coarsest.
@@ -128,7 +132,7 @@ class FarPainter {
         return true;
     }
     void draw_strip(const Square& square, uint32_t rows_log2) {
-        if (square.log2 == 0) return draw_tile(square.i, square.j, rows_log2);
+        if (square.log2 == 0) return draw_tile(square.i, square.j, rows_log2, {});
         FarPlace place = view_.place_of(square.i, square.j, square.log2);
         if (std::isnan(place.ground_m)) return;
         draw_mean(square, place, direction_of(view_.chosen_at(place), uint32_t(square.number() >> 56)), rows_log2);
@@ -156,14 +160,18 @@ class FarPainter {
         put({place.middle_m, place.ground_m + double(mean.middle_m)}, wide_m, mean.colour);
     }
 
-    // Of a tile by itself, or in place of 2^rows_log2.
-    void draw_tile(int64_t i, int64_t j, uint32_t rows_log2) {
+    // Of a tile by itself, or in place of 2^rows_log2, of which then nothing is known.
+    void draw_tile(int64_t i, int64_t j, uint32_t rows_log2, const FarBlock& block) {
         if (!item_->is_planted_throughout && !parts_.placement->is_planted(i, j)) return;
+        uint32_t tile = item_->tiles_log2 == 0 ? item_->tile : parts_.tiling->at(i, j);
+        if (block.is_of_one && block.rung.stage == Stage::texture &&
+            double(far_.least_need(tile, field_.texture_level(block.rung))) >= block.share_most)
+            return;
         FarPlace place = view_.place_of(i, j, 0);
         if (std::isnan(place.ground_m)) return;
         Chosen chosen = view_.chosen_at(place);
         double rise = view_.rise_at(place);
-        uint32_t context = context_of(i, j), tile = item_->tiles_log2 == 0 ? item_->tile : parts_.tiling->at(i, j);
+        uint32_t context = context_of(i, j);
         for (auto [rung, by_rung] :
              {std::pair(chosen.rungs.first, first_of(chosen.rungs)), {chosen.rungs.second, second_of(chosen.rungs)}}) {
             if (by_rung.share() == 0) continue;

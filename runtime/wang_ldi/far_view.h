@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "runtime/wang_ldi/far_images.h"
 #include "runtime/wang_ldi/field.h"
@@ -24,6 +25,16 @@ inline double behind_each_other(double opacity, uint32_t rows_log2) {
     for (uint32_t n = 0; n < rows_log2; ++n) through *= through;
     return 1 - through;
 }
+
+// What holds wherever a block of far ground is looked at.
+struct FarBlock {
+    bool is_of_one = false;  // all its places show one rung, of textures or colours, and no other; else nothing is said
+    Rung rung;
+    double share_most = 1;  // of none is more drawn: of points of a texture as share_of, of colours as of one that is opaque
+
+    // The binary logarithm of the tiles along a texel's side.
+    uint32_t log2() const { return rung.stage == Stage::colour ? rung.level : 0; }
+};
 
 class FarView {
   public:
@@ -83,7 +94,45 @@ class FarView {
         return std::clamp((slope - line) / std::sqrt(1 + line * line), 0.0, 1.0);
     }
 
+    // Of a rectangle and its ground's range.
+    FarBlock block_of(const Rect& rect, const GroundRange& range, const FarImages& far) const {
+        FarBlock block;
+        if (!range.is_whole) return block;
+        glm::dvec2 eye(eye_.position_m), nearest = glm::clamp(eye, rect.low_m, rect.high_m) - eye;
+        glm::dvec2 farthest = glm::max(glm::abs(rect.low_m - eye), glm::abs(rect.high_m - eye));
+        const Ladder& ladder = field_.ladder();
+        Mix at_near = rungs_at(ladder, field_.distance_m(nearest, eye_.position_m.z - range.high_m));
+        if (at_near.first != at_near.second) return block;
+        if (rungs_at(ladder, field_.distance_m(farthest, eye_.position_m.z - range.low_m)) != at_near) return block;
+        block.rung = ladder.rungs[at_near.first];
+        block.is_of_one = block.rung.stage == Stage::texture || block.rung.stage == Stage::colour;
+        if (block.is_of_one) block.share_most = share_most(block, least_depth_m(rect, range), far);
+        return block;
+    }
+
   private:
+    double least_depth_m(const Rect& rect, const GroundRange& range) const {
+        float least = std::numeric_limits<float>::infinity();
+        for (int corner = 0; corner < 8; ++corner) {
+            glm::dvec3 at(corner & 1 ? rect.high_m.x : rect.low_m.x, corner & 2 ? rect.high_m.y : rect.low_m.y,
+                          corner & 4 ? range.high_m : range.low_m);
+            least = std::min(least, eye_.seen(at - eye_.position_m).z);
+        }
+        return double(least);
+    }
+    // `shrunk` is no more than 1, nor than the square of so many pixels as a point is wide.
+    double share_most(const FarBlock& block, double least_depth_m, const FarImages& far) const {
+        constexpr double kMore = 1.0001;  // than rounding takes away
+        double tile_m = field_.parts().images->tile_m, wide_m = std::ldexp(kDiagonal * tile_m, int(block.log2())), times = 1;
+        if (block.rung.stage == Stage::texture) {
+            uint32_t level = field_.texture_level(block.rung);
+            double texel_m = tile_m / (far.side_px() >> level);
+            wide_m = double(far.widest_m(level)), times = 1 + kOverlap * texel_m / double(far.least_high_m(level));
+        }
+        double wide_px = eye_.focal_px * wide_m / std::max(least_depth_m, double(eye_.near_m));
+        return kMore * times * std::min(1.0, wide_px * wide_px);
+    }
+
     const Eye& eye_;
     const PictureBounds& bounds_;
     const Field& field_;
