@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "formats/wang_ldi.h"
+#include "runtime/wang_ldi/pixel_grid.h"
 #include "runtime/wang_ldi/random.h"
 
 namespace overlook::wang_ldi {
@@ -105,8 +106,7 @@ class FadeRow {
 // What decides at a pixel of an image, of side_px, between two rungs: of both rungs' images the coarser one's pixels decide, so
 // that what one leaves out the other shows. coarser_px <= side_px: pixels along its side. tile: as of FadeRow.
 inline uint32_t rung_threshold(uint64_t tile, uint32_t column, uint32_t row, uint32_t side_px, uint32_t coarser_px) {
-    auto coarse = [&](uint32_t pixel) { return uint32_t((uint64_t(2) * pixel + 1) * coarser_px / (uint64_t(2) * side_px)); };
-    return FadeRow(tile, Decides::rungs, coarse(row)).at(coarse(column));
+    return FadeRow(tile, Decides::rungs, cell_of(row, side_px, coarser_px)).at(cell_of(column, side_px, coarser_px));
 }
 // The same between two directions of one level.
 inline uint32_t direction_threshold(uint64_t tile, uint32_t column, uint32_t row) {

@@ -94,6 +94,8 @@ class FarImages {
 // How evenly spread numbers 0 <= it < 1 are for places of a lattice: any few beside each other are far apart.
 float spread_at(int64_t column, int64_t row);
 
+// Texels along the side of textures_of_images' pictures.
+uint32_t texture_side_of_images_px(const ImageSet& set);
 // Textures made of the coarsest images, for files that have none: as fine as those images are, and as opaque as their samples.
 // Of images that are not at hand nothing is seen. O(samples of the coarsest level).
 TextureSet textures_of_images(const ImageSet& set, const ImageAt& image_at);

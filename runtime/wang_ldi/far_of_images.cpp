@@ -69,9 +69,13 @@ DirectionalTexture texture_of(const TextureSet& set, const std::vector<Sum>& sum
 
 }  // namespace
 
+uint32_t texture_side_of_images_px(const ImageSet& set) {
+    return std::min(kFinestSide_px, std::bit_floor(set.levels.back().side_px));
+}
+
 TextureSet textures_of_images(const ImageSet& set, const ImageAt& image_at) {
     TextureSet textures;
-    textures.side_px = std::min(kFinestSide_px, std::bit_floor(set.levels.back().side_px));
+    textures.side_px = texture_side_of_images_px(set);
     textures.tile_m = set.tile_m, textures.low_m = set.low_m, textures.high_m = set.high_m;
     textures.nearest_m = textures.farthest_m = set.cell.farthest_m;
     textures.eye_low_m = set.cell.eye_low_m, textures.eye_high_m = set.cell.eye_high_m;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "runtime/wang_ldi/far_view.h"
+#include "runtime/wang_ldi/field_walk.h"
 #include "runtime/wang_ldi/tile_painter.h"
 
 namespace overlook::wang_ldi {
@@ -63,17 +64,16 @@ class FarPainter {
         if (log2 == 0) return draw_tile(i, j, 0, block);
         if (block.is_of_one && log2 == block.log2() && double(spread_at(i >> log2, j >> log2)) >= block.share_most) return;
         Rect rect = parts_.placement->rect_of(i, j, int64_t(1) << log2);
-        if (!item_->is_planted_throughout && parts_.placement->coverage(rect) == Placement::Coverage::none) return;
         GroundRange range = ground_.bound(rect);
+        if (!item_->is_planted_throughout && parts_.placement->coverage(rect, range) == Placement::Coverage::none) return;
         if (log2 < item_->tiles_log2 && (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_))) return;
         if (!block.is_of_one) block = view_.block_of(rect, range, far_);
         bool is_coarser = block.is_of_one && log2 > block.log2();  // than its texels
         if (log2 <= coarsest_log2_ && !is_coarser && draw_square(i, j, log2)) return;
         if (view_.is_flat(rect, range) && draw_strips(i, j, log2)) return;
         int64_t half = int64_t(1) << (log2 - 1);
-        glm::dvec2 middle = parts_.placement->rect_of(i + half, j + half).low_m, eye(eye_.position_m);
-        int near_x = eye.x >= middle.x, near_y = eye.y >= middle.y;
-        for (auto [x, y] : {std::pair(1 - near_x, 1 - near_y), {1 - near_x, near_y}, {near_x, 1 - near_y}, {near_x, near_y}})
+        glm::dvec2 middle = parts_.placement->rect_of(i + half, j + half).low_m;
+        for (auto [x, y] : quarters_towards(glm::dvec2(eye_.position_m), middle))
             visit(i + x * half, j + y * half, log2 - 1, block);
     }
 

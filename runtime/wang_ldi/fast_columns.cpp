@@ -57,8 +57,6 @@ bool FastColumns<hiding>::may_show(uint32_t row, const Span& columns) const {
 template <Hiding hiding>
 void FastColumns<hiding>::draw_row(uint32_t row, const Span& columns, const uint32_t* shown) {
     const uint32_t* first = first_of_row(row);
-    if (first[columns.from] == first[columns.to]) return;
-    if (!is_inside && !may_be_seen(row, columns, frame_.corner + frame_.middle_m(row) * frame_.north)) return;
     make_room(first[columns.to] - first[columns.from]);
     shown == nullptr ? add_all(row, columns) : add_shown(row, columns, shown);
     if (hiding == Hiding::by_depth) {

@@ -33,8 +33,11 @@ class FastColumns final : public Columns {
                 const glm::dvec2& south_west_m, FastTools& tools);
 
     void stand_on(const Plane& plane) override;
-    void draw(uint32_t column, uint32_t row) override { draw_row(row, {column, column + 1}, nullptr); }
-    // shown: for each column all bits or none; null: all are, which by order they must be. By depth some are kept until finish().
+    void draw(uint32_t column, uint32_t row) override {
+        if (may_show(row, {column, column + 1})) draw_row(row, {column, column + 1}, nullptr);
+    }
+    // Of a row that may_show something. shown: for each column all bits or none; null: all are, which by order they must be. By
+    // depth some are kept until finish().
     void draw_row(uint32_t row, const Span& columns, const uint32_t* shown);
     // Before it stands on another plane, or another is drawn.
     void finish();

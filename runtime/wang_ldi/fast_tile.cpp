@@ -119,7 +119,7 @@ void FastTile<hiding>::draw_rows(FastColumns<hiding>& columns, const Piece& piec
     for (uint32_t j = 0; rows.from + j < rows.to; ++j) {
         uint32_t row = towards(j, eye_row, rows);
         Span span = columns_of(piece, row, side);
-        if (span.is_empty() || (!all_shown && !columns.may_show(row, span))) continue;
+        if (span.is_empty() || !columns.may_show(row, span)) continue;
         if (!all_shown) fades_.mask(columns, row, span, tools_.shown);
         columns.draw_row(row, span, all_shown ? nullptr : tools_.shown.data());
     }

@@ -107,6 +107,7 @@ struct FieldCounts {
 
     uint64_t cost() const { return samples + texels; }
     void add(const FieldCounts& other);
+    bool operator==(const FieldCounts&) const = default;
 };
 
 struct FieldList {

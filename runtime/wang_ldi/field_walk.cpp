@@ -52,7 +52,7 @@ void FieldWalk::visit(int64_t i, int64_t j, uint8_t log2) {
     if (ground_m >= field_.reach_m_) return;
     GroundRange bound = placement_.ground().bound(rect);
     if (bound.is_empty() || !is_in_sight(rect, bound)) return;
-    Placement::Coverage coverage = placement_.coverage(rect);
+    Placement::Coverage coverage = placement_.coverage(rect, bound);
     if (log2 == 0) return (*take_)({i, j, 0, coverage, 0});
     if (coverage == Placement::Coverage::none) return;
     double near_m = field_.distance_m({ground_m, 0}, eye_m_.z - bound.high_m);

@@ -81,7 +81,7 @@ Ground::Cells Ground::cell(uint32_t column, uint32_t row) const {
 
 double Ground::height_at(const glm::dvec2& grid) const {
     Asked asked;
-    return terrain_ ? height_at(grid, asked) : plain_height_m_;
+    return height_at(grid, asked);
 }
 
 double Ground::height_at(const glm::dvec2& grid, Asked& asked) const {

@@ -9,7 +9,7 @@
 namespace overlook::wang_ldi {
 
 // Of a function of a tile's place. A tile is forgotten when one is asked about that lies a multiple of kSide tiles from it along
-// both axes. Any thread, at the same time: each finds the function's value. Memory: 8 bytes an entry.
+// both axes. Any thread, at the same time: each finds the function's value. Memory: 8 MiB.
 class PlaceCache {
   public:
     static constexpr int64_t kSide = 1024;  // a power of two

@@ -79,8 +79,7 @@ Verdict Placement::found_verdict(int64_t i, int64_t j) const {
     return mask_.at((rect.low_m + rect.high_m) / 2.0) >= kPainted ? Verdict::planted : Verdict::unpainted;
 }
 
-Placement::Coverage Placement::coverage(const Rect& rect) const {
-    GroundRange bound = ground_->bound(rect);
+Placement::Coverage Placement::coverage(const Rect& rect, const GroundRange& bound) const {
     if (bound.is_empty() || bound.high_m < lowest_m_ || bound.low_m > highest_m_) return Coverage::none;
     PaintedMap::Range painted = mask_.bound(rect);
     if (painted.high < kPainted * 255) return Coverage::none;

@@ -76,7 +76,8 @@ class Placement {
     bool is_planted(int64_t i, int64_t j) const { return verdict(i, j) == Verdict::planted; }
     // Of a rectangle, without looking at its tiles: all are planted, none is, or it is not known.
     enum class Coverage : uint8_t { none, some, all };
-    Coverage coverage(const Rect& rect) const;
+    Coverage coverage(const Rect& rect) const { return coverage(rect, ground_->bound(rect)); }
+    Coverage coverage(const Rect& rect, const GroundRange& bound) const;  // bound: Ground::bound of it
 
     // Whether a tile has a neighbour, at a side or a corner, that is not planted.
     bool is_at_edge(int64_t i, int64_t j) const;

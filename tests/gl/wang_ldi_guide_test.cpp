@@ -7,7 +7,9 @@
 #include "tests/gl/planting_file.h"
 #include "tests/runtime/discrete/chains.h"
 #include "tests/runtime/hills.h"
+#include "tools/measure/methods.h"
 #include "tools/measure/paper/wang_ldi/flown_fields.h"
+#include "tools/measure/planting_method.h"
 
 namespace overlook::measure::paper::wang {
 namespace {
@@ -62,6 +64,16 @@ TEST(Guide, StepsAsideOntoPlantedGroundAlone) {
 }
 
 // What images show is drawn as geometry in their place, the same by whoever draws it; far points stay.
+// Of the images that a method lists, not of what is drawn beyond them.
+uint64_t image_samples(const Land& land, const view::Camera& camera, const std::string& method) {
+    Result<MethodSpec> spec = parse_method(method);
+    EXPECT_TRUE(spec) << method;
+    auto frames =
+        wang_ldi::FrameDrawer::make(land.planted(), land.world.planted->land(), planting_options(*spec), streaming_of(*spec));
+    EXPECT_TRUE(frames && (*frames)->decide(camera, 0, 0)) << method;
+    return (*frames)->list().counts.samples;
+}
+
 TEST(Race, HasTheSameGeometryInPlaceOfAllImages) {
     std::string reason;
     auto context = test::software_context(reason);
@@ -72,7 +84,8 @@ TEST(Race, HasTheSameGeometryInPlaceOfAllImages) {
     Land& land = lands->front();
     ASSERT_TRUE(upload(land.world));
     std::vector<FieldRow> rows;
-    auto raced = race_geometry(land, Guide(land).steps(2, 96, 64), context->renderer(), rows);
+    std::vector<view::Camera> cameras = Guide(land).steps(2, 96, 64);
+    auto raced = race_geometry(land, cameras, context->renderer(), rows);
     ASSERT_TRUE(raced) << raced.error().message;
     ASSERT_EQ(rows.size(), 12u);
     for (size_t first = 0; first < rows.size(); first += 3) {
@@ -85,6 +98,10 @@ TEST(Race, HasTheSameGeometryInPlaceOfAllImages) {
         EXPECT_EQ(by_processor.triangles, by_opengl.triangles) << own.x;
         EXPECT_LT(by_processor.samples, own.samples) << own.x;
         EXPECT_EQ(by_processor.samples, by_opengl.samples) << own.x;
+        Raced raced_here = raced_at(land, cameras.front(), own.x);
+        EXPECT_GT(image_samples(land, cameras.front(), raced_here.own), 0u) << own.x;
+        EXPECT_EQ(image_samples(land, cameras.front(), raced_here.by_processor), 0u) << own.x;
+        EXPECT_EQ(image_samples(land, cameras.front(), raced_here.by_opengl), 0u) << own.x;
         EXPECT_FALSE(own.own_times_as_fast);
         for (const FieldRow* row : {&by_processor, &by_opengl}) {
             ASSERT_TRUE(row->own_times_as_fast);

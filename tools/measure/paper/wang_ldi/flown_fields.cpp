@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kErrors_px[] = {0.5, 1, 2, 4, 8}, kRacedErrors_px[] = {1, 2, 4, 8};
 constexpr double kRadii_tiles[] = {10, 20, 40, 100, 400, 1000};
-constexpr uint32_t kRadiusFrames = 4, kMagentaFrames = 2, kStreamedFrames = 160, kRacedFrames = 8, kTextureSide_px = 32;
+constexpr uint32_t kRadiusFrames = 4, kMagentaFrames = 2, kStreamedFrames = 160, kRacedFrames = 8;
 
 // What is switched off, and how.
 struct Remedy {
@@ -54,14 +54,11 @@ class Runs {
     }
     void add_race(const Land& land, const view::Camera& camera) {
         for (double error_px : kRacedErrors_px) {
-            wang_ldi::FrameOptions options;
-            options.error_px = error_px;
-            uint32_t side_px = land.planted().textures() ? land.planted().textures()->side_px : kTextureSide_px;
-            double to_m = wang_ldi::field_options_of(land.images(), options, camera, side_px).ladder.texture_from_m;
-            std::string within = fmt::format("@error-px={}", error_px), reach = fmt::format("up to {:.0f} m", to_m);
-            add("wang-ldi" + within, {"race", "Overlook", "", error_px});
-            add(fmt::format("wang-ldi@geometry-m={}@geometry-by=1", to_m) + within, {"race", kByProcessor, reach, error_px});
-            add(fmt::format("wang-ldi@geometry-m={}@geometry-by=2", to_m) + within, {"race", kByOpenGl, reach, error_px});
+            Raced raced = raced_at(land, camera, error_px);
+            std::string reach = fmt::format("up to {:.0f} m", raced.geometry_to_m);
+            add(raced.own, {"race", "Overlook", "", error_px});
+            add(raced.by_processor, {"race", kByProcessor, reach, error_px});
+            add(raced.by_opengl, {"race", kByOpenGl, reach, error_px});
         }
     }
     void add_remedies() {
@@ -203,6 +200,16 @@ void count_view(const Land& land, const view::Camera& camera, FlownLand& flown) 
 }
 
 }  // namespace
+
+Raced raced_at(const Land& land, const view::Camera& camera, double error_px) {
+    wang_ldi::FrameOptions options;
+    options.error_px = error_px;
+    const std::optional<wang_ldi::TextureSet>& textures = land.planted().textures();
+    uint32_t side_px = textures ? textures->side_px : wang_ldi::texture_side_of_images_px(land.images());
+    double to_m = wang_ldi::field_options_of(land.images(), options, camera, side_px).ladder.texture_from_m;
+    std::string within = fmt::format("@error-px={}", error_px), geometry = fmt::format("wang-ldi@geometry-m={}", to_m);
+    return {to_m, "wang-ldi" + within, geometry + "@geometry-by=1" + within, geometry + "@geometry-by=2" + within};
+}
 
 Result<void> race_geometry(Land& land, std::vector<view::Camera> cameras, const gl::Renderer& renderer,
                            std::vector<FieldRow>& rows) {

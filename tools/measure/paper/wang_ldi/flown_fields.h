@@ -62,6 +62,13 @@ struct FieldOptionsAsked {
 Result<FlownLand> fly_land(Land& land, const std::string& plants, const FieldOptionsAsked& asked, const gl::Renderer& renderer,
                            const std::function<void(double)>& done);
 
+// The methods of a race at an error asked, for cameras of one picture: geometry goes to where textures begin.
+struct Raced {
+    double geometry_to_m = 0;
+    std::string own, by_processor, by_opengl;
+};
+Raced raced_at(const Land& land, const view::Camera& camera, double error_px);
+
 // Overlook as it draws by itself beside the same picture with geometry in place of all images: plants at discrete levels of the
 // same error up to where textures begin, by Overlook's own hand and by OpenGL, instanced; the same far points beyond. At 1, 2, 4
 // and 8 px, each frame by all of them in turn, one sample a pixel. Adds the rows. Fails as run_course.
