@@ -167,12 +167,14 @@ Result<void> FrameDrawer::list(Slot& slot, double morph) {
 Result<void> FrameDrawer::fetch(Slot& slot, double dt_s) {
     uint64_t streamed_bytes = 0;
     faults_.clear();
-    wanted_ = slot.list;
+    if (streaming_.waits) wanted_ = slot.list;
+    bool has_stand_ins = false;  // in the list
     do {
         const std::vector<Error>& faults = store_->begin_frame();
         faults_.insert(faults_.end(), faults.begin(), faults.end());
         if (streaming_.waits && !faults_.empty()) return tl::unexpected(faults_.front());
-        slot.list = wanted_;
+        if (has_stand_ins) slot.list = wanted_;
+        has_stand_ins = true;
         slot.counts.images = store_->take(*slot.field, slot.list);
         if (!streaming_.waits) look_ahead(slot, dt_s);
         store_->end_frame();

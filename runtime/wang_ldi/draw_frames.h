@@ -62,12 +62,13 @@ struct FrameCounts {
     uint32_t threads = 1;
     bool are_plants_by_processor = false;  // as geometry
     bool is_warped_by_card = false;        // of warp then only `samples`, of all that is drawn, and images_missing are counted
-    double list_ms = 0, plants_ms = 0;     // plants_ms: of geometry that the processor draws, beside other work as warp_ms
-    double warp_ms = 0;                    // beside other work, of one that is pipelined; of the card until it has its orders
-    double asked_error_px = 0;             // the options', or above it where a budget forces it
-    int times_listed = 0;                  // until it was found
-    double planting_error_px = 0;          // of what is planted: planting_error_px, and of geometry what its levels are off
-    double predicted_error_px = 0;         // of terrain and planting, the greater
+    // plants_ms: of geometry that the processor draws, at the same time as warp_ms, which may each have waited for the other, and
+    // both for what draws the terrain meanwhile. warp_ms of the card: until it has its orders.
+    double list_ms = 0, plants_ms = 0, warp_ms = 0;
+    double asked_error_px = 0;      // the options', or above it where a budget forces it
+    int times_listed = 0;           // until it was found
+    double planting_error_px = 0;   // of what is planted: planting_error_px, and of geometry what its levels are off
+    double predicted_error_px = 0;  // of terrain and planting, the greater
 };
 
 // Frames come in their order: each decide(), then draw(), then perhaps draw() again into other targets, which shows the same from

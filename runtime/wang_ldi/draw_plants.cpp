@@ -150,16 +150,11 @@ PlantCounts counts_of(std::span<const PlantList> lists) {
     return counts;
 }
 
-std::vector<PlantList> Plants::lists(const view::Camera& camera, std::span<const PlantPlaces> by_model,
-                                     const PlantAccuracy& accuracy) const {
-    return plant_lists(forms_, by_model, camera, accuracy);
-}
-
 void Plants::draw_list(const PlantList& list, const view::Camera& camera, double haze_per_m, const discrete::DrawOptions& options,
                        PlantCounts& counts) {
     Model& model = *models_[list.model];
     discrete::DrawList drawn =
-        discrete::draw_list(model.drawing.layout(), model.drawing.chain(), list.listed.frame, list.places.placements, camera, 0);
+        discrete::draw_list(model.drawing.layout(), model.drawing.chain(), list.listed.frame, list.places->placements, camera, 0);
     counts.uploaded_bytes += model.buffers.fill(drawn);
     const gl::Program& program = model.programs[list.is_fading];
     program.use();

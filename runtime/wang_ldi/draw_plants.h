@@ -40,8 +40,6 @@ class Plants {
     static Result<Plants> make(std::span<const discrete::Chain> chains, const Planting& planting, const glm::dvec3& to_sun);
 
     const std::vector<PlantForm>& forms() const { return forms_; }  // of each model
-    std::vector<PlantList> lists(const view::Camera& camera, std::span<const PlantPlaces> by_model,
-                                 const PlantAccuracy& accuracy) const;
     // Draws over what the target holds, by depth; does not resolve. haze_per_m: of the air before them, as terrain::Drawing's; 0:
     // none, as they are drawn by a PlantRaster, before whose picture a Composite puts it. part: of the camera's picture, that the
     // target shows; the whole of it if not said.

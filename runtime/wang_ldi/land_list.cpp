@@ -15,10 +15,10 @@ Result<void> LandLister::list(const view::Camera& camera, const glm::dvec3& orig
     Result<Field> field =
         Field::of(planted_.parts(), field_options_of(planted_.images().set(), possible, camera, texture_side_px));
     if (!field) return tl::unexpected(field.error());
-    out.field.emplace(std::move(*field)), out.error_px = options.error_px;
+    out.field.emplace(std::move(*field));
     view::Camera on_terrain = camera;
     on_terrain.position_m -= origin_m;
-    refiner_.cut_by_pixels(on_terrain, out.error_px, out.cut, morph);
+    refiner_.cut_by_pixels(on_terrain, options.error_px, out.cut, morph);
     out.field->list(camera, out.list, out.scratch);
     list_plants(camera, {options.error_px, options.plant_fade}, out);
     return {};
@@ -32,7 +32,7 @@ void LandLister::list_plants(const view::Camera& camera, const PlantAccuracy& ac
         for (const Shown& shown : out.list.shown_of(item))
             if (out.field->ladder().rungs[shown.rung].stage == Stage::geometry)
                 add_plants(planted_, item.i, item.j, float(shown.by_rung.share()) / kWhole, by_model);
-    out.plants = plant_lists(*forms_, by_model, camera, accuracy);
+    out.plants = plant_lists(*forms_, std::move(by_model), camera, accuracy);
 }
 
 }  // namespace overlook::wang_ldi

@@ -15,7 +15,6 @@
 namespace overlook::wang_ldi {
 
 struct LandList {
-    double error_px = 0;  // asked
     std::optional<Field> field;
     FieldList list;  // of field
     terrain::Cut cut;

@@ -153,19 +153,20 @@ ListedPlants plants_listed(const PlantForm& form, const PlantPlaces& places, con
     return listed_of(form, places, camera, in_sight(form, places, camera, accuracy));
 }
 
-std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::span<const PlantPlaces> by_model,
+std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::vector<PlantPlaces> by_model,
                                    const view::Camera& camera, const PlantAccuracy& accuracy) {
     std::vector<PlantList> lists;
     for (uint32_t model = 0; model < forms.size(); ++model) {
-        const PlantPlaces& places = by_model[model];
-        std::vector<InSight> whole = in_sight(forms[model], places, camera, accuracy), fading;
+        if (by_model[model].placements.empty()) continue;
+        auto places = std::make_shared<const PlantPlaces>(std::move(by_model[model]));
+        std::vector<InSight> whole = in_sight(forms[model], *places, camera, accuracy), fading;
         std::erase_if(whole, [&](const InSight& one) {
             bool is_fading = one.item.show != discrete::Show::whole;
             if (is_fading) fading.push_back(one);
             return is_fading;
         });
         for (bool is_fading : {false, true}) {
-            ListedPlants listed = listed_of(forms[model], places, camera, is_fading ? std::move(fading) : std::move(whole));
+            ListedPlants listed = listed_of(forms[model], *places, camera, is_fading ? std::move(fading) : std::move(whole));
             if (!listed.frame.items.empty()) lists.push_back({model, is_fading, places, std::move(listed)});
         }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -51,11 +52,11 @@ ListedPlants plants_listed(const PlantForm& form, const PlantPlaces& places, con
 struct PlantList {
     uint32_t model = 0;
     bool is_fading = false;
-    PlantPlaces places;
+    std::shared_ptr<const PlantPlaces> places;  // all of the model
     ListedPlants listed;
 };
 // Of all models, two each, in their order; lists of nothing are left out.
-std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::span<const PlantPlaces> by_model,
+std::vector<PlantList> plant_lists(std::span<const PlantForm> forms, std::vector<PlantPlaces> by_model,
                                    const view::Camera& camera, const PlantAccuracy& accuracy);
 
 }  // namespace overlook::wang_ldi

@@ -28,7 +28,7 @@ std::vector<Task> tasks_of(const view::Camera& camera, std::span<const PlantList
     for (uint32_t l = 0; l < lists.size(); ++l) {
         const std::vector<discrete::Item>& items = lists[l].listed.frame.items;
         for (uint32_t i = 0; i < items.size(); ++i) {
-            glm::dvec3 foot_m = lists[l].places.placements[items[i].instance].translation_m;
+            glm::dvec3 foot_m = lists[l].places->placements[items[i].instance].translation_m;
             tasks.push_back({glm::length(glm::dvec2(foot_m - camera.position_m)), l, i});
         }
     }
@@ -68,7 +68,7 @@ void PlantRaster::draw(const view::Camera& camera, std::span<const PlantShape> s
         for (const Task& task : tasks) {
             const PlantList& list = lists[task.list];
             const discrete::Item& item = list.listed.frame.items[task.item];
-            pen.draw(shapes[list.model], item.level, list.places.placements[item.instance], door_of(item));
+            pen.draw(shapes[list.model], item.level, list.places->placements[item.instance], door_of(item));
         }
     });
 }

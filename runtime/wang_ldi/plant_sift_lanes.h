@@ -67,7 +67,8 @@ struct Sifted {
         Ints right = lesser(((high_x - kHalf) >> kCornerBits) + 1, Ints{} + frame.right);
         Ints bottom = lesser(((high_y - kHalf) >> kCornerBits) + 1, Ints{} + frame.height_px);
         Ints is_small = (high_x - low_x <= kSmall) & (high_y - low_y <= kSmall);
-        Ints x1 = at.x[1] - at.x[0], y1 = at.y[1] - at.y[0], x2 = at.x[2] - at.x[0], y2 = at.y[2] - at.y[0];
+        Ints x1 = (at.x[1] - at.x[0]) & is_small, y1 = (at.y[1] - at.y[0]) & is_small;
+        Ints x2 = (at.x[2] - at.x[0]) & is_small, y2 = (at.y[2] - at.y[0]) & is_small;  // so that products of none are too large
         area = chosen(is_small, x1 * y2 - x2 * y1, Ints{} + 1);
         is_one = is_small & (right - column == 1) & (bottom - row == 1);
         Ints shows = (column < right) & (row < bottom) & (area != 0) & (~is_one | has_middle(at));
@@ -81,8 +82,8 @@ struct Sifted {
         Ints x = (column << kCornerBits) + kCornerSteps / 2, y = (row << kCornerBits) + kCornerSteps / 2;
         for (int k = 0; k < 3; ++k) {
             int from = (k + 1) % 3, to = (k + 2) % 3;  // the edge that faces corner k
-            Ints along = (at.x[to] - at.x[from]) * sign, across = (at.y[to] - at.y[from]) * sign;
-            edges[k] = chosen(is_one, along * (y - at.y[from]) - across * (x - at.x[from]), Ints{});
+            Ints along = ((at.x[to] - at.x[from]) & is_one) * sign, across = ((at.y[to] - at.y[from]) & is_one) * sign;
+            edges[k] = along * ((y - at.y[from]) & is_one) - across * ((x - at.x[from]) & is_one);
             inside &= (edges[k] > 0) | ((edges[k] == 0) & ((across < 0) | ((across == 0) & (along > 0))));
         }
         return inside;

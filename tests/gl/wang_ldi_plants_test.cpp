@@ -105,7 +105,7 @@ void draw(Plants& plants, bool fades, Both& both, double fade = 0) {
     const GLfloat black[] = {0, 0, 0, 1}, farthest = 0;
     glClearBufferfv(GL_COLOR, 0, black);
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    std::vector<PlantList> lists = plants.lists(camera(), places(fades), {1, fade});
+    std::vector<PlantList> lists = plant_lists(plants.forms(), places(fades), camera(), {1, fade});
     PlantCounts counts = plants.draw(*target, camera(), lists, 0);
     EXPECT_GT(counts.plant_count, 10u);
     EXPECT_EQ(counts.triangle_count, counts_of(lists).triangle_count);
@@ -181,7 +181,7 @@ TEST(PlantsOfTwoLevels, ShareTheSamplesOfAPixel) {
         glClearBufferfv(GL_COLOR, 0, green);
         glClearBufferfv(GL_DEPTH, 0, &farthest);
         std::vector<PlantPlaces> places{{{{{0, away_m, 0}}}, {1.0f}}};
-        std::vector<PlantList> lists = plants->lists(from, places, {1, 0.5});
+        std::vector<PlantList> lists = plant_lists(plants->forms(), places, from, {1, 0.5});
         plants->draw(*target, from, lists, 0);
         target->resolve();
         ImageRgb8 picture = target->read();
