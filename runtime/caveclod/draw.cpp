@@ -38,10 +38,6 @@ gl::TriangleRange take_from(gl::TriangleRange& range, uint64_t face_count) {
     return part;
 }
 
-float linear_of(uint8_t encoded) {
-    return float(linear_from_srgb_code(encoded));
-}
-
 }  // namespace
 
 CameraBuffers::CameraBuffers(const Mesh& mesh) : surfaces_(mesh.surface_count()) {
@@ -188,8 +184,8 @@ Result<void> Drawing::make_looks(const Mesh& mesh) {
         if (!texture) return impossible("{}: {}", surface.texture, texture.error().message);
         Look look;
         look.picture = std::move(*texture);
-        look.colour = {linear_of(surface.colour[0]), linear_of(surface.colour[1]), linear_of(surface.colour[2]),
-                       float(surface.colour[3]) / 255};
+        look.colour = {float(linear_from_srgb_code(surface.colour[0])), float(linear_from_srgb_code(surface.colour[1])),
+                       float(linear_from_srgb_code(surface.colour[2])), float(surface.colour[3]) / 255};
         if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
         look.is_two_sided = surface.is_two_sided;
         looks_.push_back(std::move(look));

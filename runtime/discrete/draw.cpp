@@ -32,10 +32,6 @@ struct PackedVisibility {
     uint32_t first = 0, pad[2] = {0, 0};
 };
 
-float linear_of(uint8_t encoded) {
-    return float(linear_from_srgb_code(encoded));
-}
-
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& from) {
     return std::as_bytes(std::span(from));
@@ -155,8 +151,8 @@ Result<void> Drawing::make_looks() {
         bytes_ += picture.pixels.size();
         Look look;
         look.picture = std::move(*texture);
-        look.colour = {linear_of(surface.colour[0]), linear_of(surface.colour[1]), linear_of(surface.colour[2]),
-                       float(surface.colour[3]) / 255};
+        look.colour = {float(linear_from_srgb_code(surface.colour[0])), float(linear_from_srgb_code(surface.colour[1])),
+                       float(linear_from_srgb_code(surface.colour[2])), float(surface.colour[3]) / 255};
         if (surface.is_alpha_masked) look.alpha_cutoff = surface.alpha_cutoff;
         look.is_picture = looks_.size() >= chain_->surfaces.size() - chain_->picture_count;
         look.is_two_sided = chain_->surfaces[looks_.size()].is_two_sided;

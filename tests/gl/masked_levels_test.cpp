@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "formats/srgb.h"
 #include "runtime/gl/objects.h"
 #include "tests/gl/fixture.h"
 
@@ -21,6 +22,20 @@ ImageRgba8 striped(uint32_t width, uint32_t height, uint32_t period, uint32_t wi
             pixel[0] = 200, pixel[1] = 180, pixel[2] = 20, pixel[3] = 255;
         }
     return image;
+}
+
+// Of two neighbours' light the mean, stored as the nearest code.
+TEST(MaskedLevels, StoreTheLightThatIsSeen) {
+    for (uint32_t one = 0; one < 256; one += 5)
+        for (uint32_t other = one; other < 256; ++other) {
+            ImageRgba8 image{2, 1, {}};
+            for (uint32_t code : {one, other})
+                for (uint32_t value : {code, code, code, 255u}) image.pixels.push_back(uint8_t(value));
+            std::vector<ImageRgba8> levels = masked_levels(image, 0.5f);
+            ASSERT_EQ(levels.size(), 1u);
+            float light = 0.5f * float(linear_from_srgb(one / 255.0)) + 0.5f * float(linear_from_srgb(other / 255.0));
+            ASSERT_EQ(levels[0].pixels[0], std::lround(255 * srgb_from_linear(double(light)))) << one << " " << other;
+        }
 }
 
 TEST(MaskedLevels, KeepTheShareThatIsOpaque) {

@@ -73,7 +73,8 @@ Counters FullGeometry::draw_planted(const gl::Target& target, const view::Camera
     on_ground.position_m -= wang_ldi::origin_of(land, camera);
     Counters counters = draw_cut(*land.drawing, world_->resident_bytes, target, cut_, on_ground, look);
     auto plants = wang_ldi::plants_in_sight(world_->planted->planted(), camera, kPlantsUpTo_m);
-    std::vector<wang_ldi::PlantList> lists = land.plants->lists(camera, plants, {kPlantError_px});
+    std::vector<wang_ldi::PlantList> lists =
+        wang_ldi::plant_lists(land.plants->forms(), std::move(plants), camera, {kPlantError_px});
     wang_ldi::PlantCounts drawn = land.plants->draw(target, camera, lists, land.drawing->haze_per_m(look), part);
     target.resolve();
     counters.triangle_count += drawn.triangle_count;

@@ -63,8 +63,8 @@ class Method {
     virtual void decide(const view::Camera& camera, uint32_t frame) = 0;
     // Draws what was decided, sky and all, and resolves the target; need not wait until it is drawn.
     virtual Counters draw(const gl::Target& target) = 0;
-    // From the next frame on, so many may be drawn a frame. 0: as many as it takes. Returns whether
-    // the method keeps budgets.
+    // From the next frame on, so many triangles may be drawn a frame. 0: as many as it takes. Returns whether the method keeps
+    // budgets.
     virtual bool set_triangles(double triangles) {
         static_cast<void>(triangles);
         return false;

@@ -11,7 +11,7 @@ namespace overlook::measure {
 namespace {
 
 constexpr uint32_t kSettled = 20;     // frames after which a budget has to be kept
-constexpr double kFirstBudget = 0.8;  // of the triangles of the first frame at the error asked
+constexpr double kFirstBudget = 0.8;  // of the triangles that a frame takes at the error asked
 constexpr double kBudgetBand = 0.05;  // a budget is met within this share of it
 
 // What a flight of counted triangles under a budget halved at `middle` showed. A frame misses it by what it takes more or less.
@@ -108,49 +108,53 @@ Result<Finding> halved_budget_by_method(Stage& stage, const MethodSpec& spec, co
     return finding;
 }
 
+// Of terrain whose cuts are counted by themselves; the budget before it is halved is so much of what the first frame takes.
+Result<Finding> halved_budget_by_cut(Stage& stage, const MethodSpec& spec, const std::vector<view::Camera>& cameras,
+                                     double share) {
+    size_t middle = cameras.size() / 2;
+    terrain::Cut cut;
+    stage.world.refiner->cut_by_pixels(cameras[0], setting(spec, "error-px"), cut, morph_of(spec));
+    view::ErrorBudget budget{kFirstBudget * double(cut.triangle_count()), setting(spec, "error-px"), false};
+    view::ErrorController controller(budget);
+    std::vector<double> costs, free;
+    for (size_t frame = 0; frame < cameras.size(); ++frame) {
+        stage.world.refiner->cut_by_pixels(cameras[frame], budget.least_error_px, cut, morph_of(spec));
+        free.push_back(double(cut.triangle_count()));
+        if (frame == middle) {
+            budget.cost *= share;
+            controller.set_budget(budget);
+        }
+        stage.world.refiner->cut_by_pixels(cameras[frame], controller.error_px(), cut, morph_of(spec));
+        costs.push_back(double(cut.triangle_count()));
+        controller.frame_done(costs.back());
+    }
+    Budgeted found = judge_budget(costs, free, middle, budget.cost);
+    Finding finding;
+    finding.frames = uint32_t(cameras.size());
+    finding.sentence =
+        fmt::format("{:.0f} triangles from frame {} on; {:.0f} in the frame before, {:.0f} in the last, at {:.2f} px.",
+                    budget.cost, middle, costs[middle - 1], costs.back(), controller.error_px());
+    say(found, budget.cost, finding);
+    MethodSpec last = spec;
+    for (auto& [name, value] : last.settings) value = name == "error-px" ? controller.error_px() : value;
+    Result<Shot> shot = shot_of(stage, last, cameras.back(), uint32_t(cameras.size() - 1));
+    if (!shot) return tl::unexpected(shot.error());
+    finding.worst = std::move(*shot);
+    return finding;
+}
+
 }  // namespace
 
 Result<std::vector<Finding>> run_halved_budget(Stage& stage, const Case& each, const scene::Flight& flight,
                                                std::span<const MethodSpec> specs) {
     std::vector<view::Camera> cameras = cameras_of(stage, flight, Pick::all);
-    size_t middle = cameras.size() / 2;
+    double share = each.settings.budget_share;
     std::vector<Finding> findings;
     for (const MethodSpec& spec : specs) {
-        if (!is_cut(stage, spec)) {
-            Result<Finding> finding = halved_budget_by_method(stage, spec, cameras, each.settings.budget_share);
-            if (!finding) return tl::unexpected(finding.error());
-            findings.push_back(std::move(*finding));
-            continue;
-        }
-        terrain::Cut cut;
-        stage.world.refiner->cut_by_pixels(cameras[0], setting(spec, "error-px"), cut, morph_of(spec));
-        view::ErrorBudget budget{kFirstBudget * double(cut.triangle_count()), setting(spec, "error-px"), false};
-        view::ErrorController controller(budget);
-        std::vector<double> costs, free;
-        for (size_t frame = 0; frame < cameras.size(); ++frame) {
-            stage.world.refiner->cut_by_pixels(cameras[frame], budget.least_error_px, cut, morph_of(spec));
-            free.push_back(double(cut.triangle_count()));
-            if (frame == middle) {
-                budget.cost *= each.settings.budget_share;
-                controller.set_budget(budget);
-            }
-            stage.world.refiner->cut_by_pixels(cameras[frame], controller.error_px(), cut, morph_of(spec));
-            costs.push_back(double(cut.triangle_count()));
-            controller.frame_done(costs.back());
-        }
-        Budgeted found = judge_budget(costs, free, middle, budget.cost);
-        Finding finding;
-        finding.frames = uint32_t(cameras.size());
-        finding.sentence =
-            fmt::format("{:.0f} triangles from frame {} on; {:.0f} in the frame before, {:.0f} in the last, at {:.2f} px.",
-                        budget.cost, middle, costs[middle - 1], costs.back(), controller.error_px());
-        say(found, budget.cost, finding);
-        MethodSpec last = spec;
-        for (auto& [name, value] : last.settings) value = name == "error-px" ? controller.error_px() : value;
-        Result<Shot> shot = shot_of(stage, last, cameras.back(), uint32_t(cameras.size() - 1));
-        if (!shot) return tl::unexpected(shot.error());
-        finding.worst = std::move(*shot);
-        findings.push_back(std::move(finding));
+        Result<Finding> finding = is_cut(stage, spec) ? halved_budget_by_cut(stage, spec, cameras, share)
+                                                      : halved_budget_by_method(stage, spec, cameras, share);
+        if (!finding) return tl::unexpected(finding.error());
+        findings.push_back(std::move(*finding));
     }
     return findings;
 }
