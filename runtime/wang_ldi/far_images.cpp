@@ -96,12 +96,6 @@ class PictureMaker {
 
 }  // namespace
 
-float spread_at(int64_t column, int64_t row) {
-    // The inverse of the plastic number and its square, as parts of 2^64.
-    uint64_t sum = uint64_t(column) * 0xc13fa9a902a6328fu + uint64_t(row) * 0x91e10da5c79e7b1du;
-    return float(sum >> 40) * 0x1p-24f;
-}
-
 Result<void> FarImages::check(const TextureSet& textures, const std::string& file) {
     uint64_t points = 0;
     for (size_t t = 0; t < textures.textures.size(); ++t) {
@@ -124,7 +118,8 @@ FarImages::FarImages(const TextureSet& textures)
       tiles_(textures.tile_count),
       directions_(textures.direction_count),
       least_needs_(size_t(tiles_) * levels_, std::numeric_limits<float>::infinity()),
-      levels_of_(levels_) {
+      least_high_m_(levels_, std::numeric_limits<float>::infinity()) {
+    for (uint32_t direction = 0; direction < directions_; ++direction) breadths_.push_back(float(breadth_of(direction, directions_)));
     for (uint32_t context = 0; context < textures.context_count; ++context)
         for (uint32_t tile = 0; tile < tiles_; ++tile)
             for (uint32_t direction = 0; direction < directions_; ++direction) {
@@ -134,12 +129,12 @@ FarImages::FarImages(const TextureSet& textures)
                     take(pictures_.back(), tile, level);
                 }
                 FarMean mean;
-                mean.breadth = float(breadth_of(direction, directions_));
                 if (FarBox box(textures, texture.heights.back()); texture.colours.back()[3] > 0 && box.tall_m() > 0) {
                     mean.colour = packed(texture.colours.back()), mean.opacity = texture.colours.back()[3] / 255.0f;
                     mean.middle_m = float((box.low_m + box.high_m) / 2), mean.half_m = float(box.tall_m() / 2);
                 }
                 means_.push_back(mean);
+                most_half_m_ = std::max(most_half_m_, mean.half_m);
             }
 }
 
@@ -147,8 +142,7 @@ void FarImages::take(const FarPicture& picture, uint32_t tile, uint32_t level) {
     if (picture.by_need.empty()) return;
     float& least = least_needs_[size_t(tile) * levels_ + level];
     least = std::min(least, picture.by_need.front().needs);
-    LevelFacts& of = levels_of_[level];
-    of.widest_m = std::max(of.widest_m, picture.wide_m), of.least_high_m = std::min(of.least_high_m, picture.high_m);
+    least_high_m_[level] = std::min(least_high_m_[level], picture.high_m);
 }
 
 uint64_t FarImages::bytes() const {

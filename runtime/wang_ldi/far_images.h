@@ -47,7 +47,6 @@ struct FarPicture {
 struct FarMean {
     uint32_t colour = 0;  // as of Warped; 0: nothing is seen
     float middle_m = 0, half_m = 0, opacity = 0;
-    float breadth = 1;  // of a square as it looks from the direction, of its side
 };
 
 class FarImages {
@@ -71,15 +70,14 @@ class FarImages {
     }
     // Of a tile at a level: no point of any of its pictures needs less.
     float least_need(uint32_t tile, uint32_t level) const { return least_needs_[size_t(tile) * levels_ + level]; }
-    // Of all pictures of a level: none has wider points, nor boxes that are less high if it has any points.
-    float widest_m(uint32_t level) const { return levels_of_[level].widest_m; }
-    float least_high_m(uint32_t level) const { return levels_of_[level].least_high_m; }
+    // Of all pictures of a level that have points: no box is less high.
+    float least_high_m(uint32_t level) const { return least_high_m_[level]; }
+    // How wide a square of ground looks from a direction, of its side: so wide are a texel's points.
+    double breadth(uint32_t direction) const { return double(breadths_[direction]); }
+    float most_half_m() const { return most_half_m_; }  // of all means
     uint64_t bytes() const;
 
   private:
-    struct LevelFacts {
-        float widest_m = 0, least_high_m = std::numeric_limits<float>::infinity();
-    };
     void take(const FarPicture& picture, uint32_t tile, uint32_t level);
     size_t index_of(uint32_t context, uint32_t tile, uint32_t direction) const {
         return (size_t(context) * tiles_ + tile) * directions_ + direction;
@@ -88,11 +86,17 @@ class FarImages {
     std::vector<FarPicture> pictures_;  // [contexts, tiles, directions, levels]
     std::vector<FarMean> means_;        // [contexts, tiles, directions]
     std::vector<float> least_needs_;    // [tiles, levels]
-    std::vector<LevelFacts> levels_of_;
+    std::vector<float> least_high_m_;   // [levels]
+    float most_half_m_ = 0;
+    std::vector<float> breadths_;  // [directions]
 };
 
 // How evenly spread numbers 0 <= it < 1 are for places of a lattice: any few beside each other are far apart.
-float spread_at(int64_t column, int64_t row);
+inline float spread_at(int64_t column, int64_t row) {
+    // The inverse of the plastic number and its square, as parts of 2^64.
+    uint64_t sum = uint64_t(column) * 0xc13fa9a902a6328fu + uint64_t(row) * 0x91e10da5c79e7b1du;
+    return float(sum >> 40) * 0x1p-24f;
+}
 
 // Texels along the side of textures_of_images' pictures.
 uint32_t texture_side_of_images_px(const ImageSet& set);

@@ -32,7 +32,9 @@ class FarPainter {
         coarsest_log2_ = 0, widest_m_ = 1.5 * tile_m_;
         if (item.tiles_log2 > 0 && rungs[item.last_rung].stage == Stage::colour) coarsest_log2_ = rungs[item.last_rung].level;
         widest_m_ = std::ldexp(widest_m_, int(coarsest_log2_));
-        visit(item.i, item.j, item.tiles_log2, {});
+        FarBlock block;
+        block.is_planted = item.is_planted_throughout;
+        visit(item.i, item.j, item.tiles_log2, block);
     }
 
     // For drawing a tile texel by texel, beside images of it.
@@ -58,23 +60,40 @@ class FarPainter {
     }
 
   private:
+    static constexpr uint32_t kLooked_log2 = 2;  // before a square is looked at, the texels in it are asked if they draw anything
+
     // A square of tiles: as one texel, or in strips, or its quarters, as the rung of its middle says and how flat it looks.
     // block: of a square that it is part of.
     void visit(int64_t i, int64_t j, uint32_t log2, FarBlock block) {
         if (log2 == 0) return draw_tile(i, j, 0, block);
-        if (block.is_of_one && log2 == block.log2() && double(spread_at(i >> log2, j >> log2)) >= block.share_most) return;
+        if (block.is_of_one && block.tiles_log2 > 0 && log2 <= block.tiles_log2 + kLooked_log2) {
+            if (log2 == block.tiles_log2) return void(draw_square({i, j, log2}, block));
+            if (!may_draw(i, j, log2, block)) return;
+        }
         Rect rect = parts_.placement->rect_of(i, j, int64_t(1) << log2);
         GroundRange range = ground_.bound(rect);
-        if (!item_->is_planted_throughout && parts_.placement->coverage(rect, range) == Placement::Coverage::none) return;
+        if (!block.is_planted) {
+            Placement::Coverage coverage = parts_.placement->coverage(rect, range);
+            if (coverage == Placement::Coverage::none) return;
+            block.is_planted = coverage == Placement::Coverage::all;
+        }
         if (log2 < item_->tiles_log2 && (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_))) return;
-        if (!block.is_of_one) block = view_.block_of(rect, range, far_);
-        bool is_coarser = block.is_of_one && log2 > block.log2();  // than its texels
-        if (log2 <= coarsest_log2_ && !is_coarser && draw_square(i, j, log2)) return;
-        if (view_.is_flat(rect, range) && draw_strips(i, j, log2)) return;
+        if (!block.is_of_one || log2 > block.tiles_log2 + 1) block = view_.looked_closer(block, rect, range, far_);
+        block.is_of_one &= log2 >= block.tiles_log2;  // a field may list squares that are smaller than texels
+        if (log2 <= coarsest_log2_ && !(block.is_of_one && log2 > block.tiles_log2) && draw_square({i, j, log2}, block)) return;
+        if (view_.is_flat(rect, range) && draw_strips(i, j, log2, block)) return;
         int64_t half = int64_t(1) << (log2 - 1);
         glm::dvec2 middle = parts_.placement->rect_of(i + half, j + half).low_m;
         for (auto [x, y] : quarters_towards(glm::dvec2(eye_.position_m), middle))
             visit(i + x * half, j + y * half, log2 - 1, block);
+    }
+    // Whether some square of a texel's size may draw a point, of a block of colours of one such size.
+    static bool may_draw(int64_t i, int64_t j, uint32_t log2, const FarBlock& block) {
+        int64_t side = int64_t(1) << (log2 - block.tiles_log2), column = i >> block.tiles_log2, row = j >> block.tiles_log2;
+        for (int64_t y = row; y < row + side; ++y)
+            for (int64_t x = column; x < column + side; ++x)
+                if (double(spread_at(x, y)) < block.share_most) return true;
+        return false;
     }
 
     // The level of a rung in tiles along a texel's side (their logarithm); of what is bare as of the coarsest.
@@ -82,25 +101,26 @@ class FarPainter {
         if (rung.stage == Stage::bare) return coarsest_log2_;
         return rung.stage == Stage::colour ? rung.level : 0;
     }
-    // Whether the square is shown as one texel (or not at all).
-    bool draw_square(int64_t i, int64_t j, uint32_t log2) {
-        FarPlace place = view_.place_of(i, j, log2);
-        if (std::isnan(place.ground_m)) return false;
-        Chosen chosen = view_.chosen_at(place);
-        uint64_t number = Square{i, j, log2}.number();
-        const Rung& rung = field_.ladder().rungs[rung_of(chosen, uint32_t(mixed(number) >> 56))];
-        if (log2_of(rung) < log2) return false;
-        if (rung.stage != Stage::bare) draw_mean({i, j, log2}, place, direction_of(chosen, uint32_t(number >> 56)), log2);
-        return true;
-    }
-
     // 2^log2 tiles along each side, from (i, j) on.
     struct Square {
         int64_t i = 0, j = 0;
         uint32_t log2 = 0;
 
         uint64_t number() const { return hash_of(log2, 0x6661, i >> log2, j >> log2); }
+        double spread() const { return double(spread_at(i >> log2, j >> log2)); }
     };
+    // Whether the square is shown as one texel (or not at all).
+    bool draw_square(const Square& square, const FarBlock& block) {
+        if (block.is_of_one && square.spread() >= block.square_share_most) return true;
+        FarPlace place = view_.place_of(square.i, square.j, square.log2);
+        if (std::isnan(place.ground_m)) return false;
+        Chosen chosen = view_.chosen_at(place, block);
+        uint64_t number = square.number();
+        const Rung& rung = field_.ladder().rungs[rung_of(chosen, uint32_t(mixed(number) >> 56))];
+        if (log2_of(rung) < square.log2) return false;
+        if (rung.stage != Stage::bare) draw_mean(square, place, direction_of(chosen, uint32_t(number >> 56)), square.log2, block);
+        return true;
+    }
     // The quarter that a strip goes through, `side` of its two halves across, and in which of the others its one place lies.
     static Square within(const Square& square, uint32_t side, bool is_along_y) {
         uint32_t log2 = square.log2 - 1, along = uint32_t(mixed(square.number()) >> 63);
@@ -110,9 +130,9 @@ class FarPainter {
 
     // A square so flat that its rows fall on each other: of each strip of texels across it one, as opaque as all of them. False
     // if texels are as wide as it is.
-    bool draw_strips(int64_t i, int64_t j, uint32_t log2) {
+    bool draw_strips(int64_t i, int64_t j, uint32_t log2, const FarBlock& block) {
         FarPlace place = view_.place_of(i, j, log2);
-        Chosen chosen = view_.chosen_at(place);
+        Chosen chosen = view_.chosen_at(place, block);
         const std::vector<Rung>& rungs = field_.ladder().rungs;
         if (std::isnan(place.ground_m) || rungs[chosen.rungs.second].stage == Stage::bare) return false;
         uint32_t coarser = log2_of(rungs[chosen.rungs.second]), finer = log2_of(rungs[chosen.rungs.first]);
@@ -124,18 +144,18 @@ class FarPainter {
             while (square.log2 > coarser) square = within(square, strip >> (square.log2 - 1 - coarser) & 1, is_along_y);
             bool is_coarser = coarser == finer || !first_of(chosen.rungs).contains(uint32_t(mixed(square.number()) >> 56));
             if (is_coarser) {
-                draw_strip(square, log2);
+                draw_strip(square, log2, block);
             } else {
-                for (uint32_t side : {0, 1}) draw_strip(within(square, side, is_along_y), log2);
+                for (uint32_t side : {0, 1}) draw_strip(within(square, side, is_along_y), log2, block);
             }
         }
         return true;
     }
-    void draw_strip(const Square& square, uint32_t rows_log2) {
-        if (square.log2 == 0) return draw_tile(square.i, square.j, rows_log2, {});
+    void draw_strip(const Square& square, uint32_t rows_log2, const FarBlock& block) {
+        if (square.log2 == 0) return draw_tile(square.i, square.j, rows_log2, block);
         FarPlace place = view_.place_of(square.i, square.j, square.log2);
         if (std::isnan(place.ground_m)) return;
-        draw_mean(square, place, direction_of(view_.chosen_at(place), uint32_t(square.number() >> 56)), rows_log2);
+        draw_mean(square, place, direction_of(view_.chosen_at(place, block), uint32_t(square.number() >> 56)), rows_log2, block);
     }
     static uint32_t rung_of(const Chosen& chosen, uint32_t decides) {
         return first_of(chosen.rungs).contains(decides) ? chosen.rungs.first : chosen.rungs.second;
@@ -145,31 +165,38 @@ class FarPainter {
     }
 
     // As one of its tiles, as opaque as 2^rows_log2 of them behind each other.
-    void draw_mean(const Square& square, const FarPlace& place, uint32_t direction, uint32_t rows_log2) {
+    void draw_mean(const Square& square, const FarPlace& place, uint32_t direction, uint32_t rows_log2, const FarBlock& block) {
+        double wide_m = place.side_m * far_.breadth(direction), spread = square.spread();
+        double shrunk = view_.shrunk(wide_m, place), deep_m = std::ldexp(tile_m_, int(rows_log2));
+        if (spread >= shrunk) return;
+        double rising_m = kOverlap * deep_m * view_.rise_at(place);
+        auto share_of = [&](float opacity, float half_m) {
+            double high_m = 2 * double(half_m) + rising_m;
+            return behind_each_other(double(opacity), rows_log2) * std::min(1.0, high_m / wide_m) * shrunk;
+        };
+        if (spread >= share_of(1, far_.most_half_m())) return;  // of whichever tile
         uint64_t number = square.number();
         int64_t x = square.i + int64_t(below(number, 1u << square.log2)),
                 y = square.j + int64_t(below(mixed(number), 1u << square.log2));
-        if (!item_->is_planted_throughout && !parts_.placement->is_planted(x, y)) return;
+        if (!is_planted(x, y, block)) return;
         const FarMean& mean = far_.mean(0, parts_.tiling->at(x, y), direction);
-        if (mean.colour == 0) return;
-        double wide_m = place.side_m * double(mean.breadth), deep_m = std::ldexp(tile_m_, int(rows_log2));
-        double high_m = 2 * double(mean.half_m) + kOverlap * deep_m * view_.rise_at(place);
-        double share =
-            behind_each_other(double(mean.opacity), rows_log2) * std::min(1.0, high_m / wide_m) * view_.shrunk(wide_m, place);
-        if (double(spread_at(square.i >> square.log2, square.j >> square.log2)) >= share) return;
+        if (mean.colour == 0 || spread >= share_of(mean.opacity, mean.half_m)) return;
         put({place.middle_m, place.ground_m + double(mean.middle_m)}, wide_m, mean.colour);
     }
+    bool is_planted(int64_t i, int64_t j, const FarBlock& block) const {
+        return block.is_planted || parts_.placement->is_planted(i, j);
+    }
 
-    // Of a tile by itself, or in place of 2^rows_log2, of which then nothing is known.
+    // Of a tile by itself, or in place of 2^rows_log2, of which then the block's shares say nothing.
     void draw_tile(int64_t i, int64_t j, uint32_t rows_log2, const FarBlock& block) {
-        if (!item_->is_planted_throughout && !parts_.placement->is_planted(i, j)) return;
+        if (!is_planted(i, j, block)) return;
         uint32_t tile = item_->tiles_log2 == 0 ? item_->tile : parts_.tiling->at(i, j);
-        if (block.is_of_one && block.rung.stage == Stage::texture &&
-            double(far_.least_need(tile, field_.texture_level(block.rung))) >= block.share_most)
+        if (block.is_of_one && block.tiles_log2 == 0 && rows_log2 == 0 &&
+            double(far_.least_need(tile, field_.texture_level(field_.ladder().rungs[block.rung]))) >= block.share_most)
             return;
         FarPlace place = view_.place_of(i, j, 0);
         if (std::isnan(place.ground_m)) return;
-        Chosen chosen = view_.chosen_at(place);
+        Chosen chosen = view_.chosen_at(place, block);
         double rise = view_.rise_at(place);
         uint32_t context = context_of(i, j);
         for (auto [rung, by_rung] :

@@ -27,9 +27,9 @@ std::array<glm::dvec2, 4> corners_of(const Rect& rect) {
     return {rect.low_m, {rect.high_m.x, rect.low_m.y}, {rect.low_m.x, rect.high_m.y}, rect.high_m};
 }
 
-double rise_of(double along_columns, double along_rows, const terrain::Frame& frame) {
-    double x = along_columns / frame.metres_per_column, y = along_rows / frame.metres_per_row;
-    return std::sqrt(x * x + y * y);
+double square_of_rise(double along_columns, double along_rows, const glm::dvec2& cells_per_m) {
+    double x = along_columns * cells_per_m.x, y = along_rows * cells_per_m.y;
+    return x * x + y * y;
 }
 
 }  // namespace
@@ -46,7 +46,8 @@ Ground Ground::plain(double height_m) {
     return ground;
 }
 
-Ground::Ground(const terrain::Terrain& terrain) : terrain_(&terrain) {
+Ground::Ground(const terrain::Terrain& terrain)
+    : terrain_(&terrain), cells_per_m_(1 / terrain.frame.metres_per_column, 1 / terrain.frame.metres_per_row) {
     uint32_t columns = terrain.shape.width - 1, rows = terrain.shape.height - 1;
     extent_ = {{0, -(rows * terrain.frame.metres_per_row)}, {columns * terrain.frame.metres_per_column, 0}};
     pyramid_ = Pyramid<Cells>(columns, rows, [&](uint32_t column, uint32_t row) { return cell(column, row); });
@@ -73,9 +74,10 @@ Ground::Cells Ground::cell(uint32_t column, uint32_t row) const {
     double top = heights[0][1] - heights[0][0], bottom = heights[1][1] - heights[1][0];
     double left = heights[1][0] - heights[0][0], right = heights[1][1] - heights[0][1];
     bool falls = (column + row) % 2 == 0;
-    double one = rise_of(top, falls ? right : left, terrain_->frame);
-    double other = rise_of(bottom, falls ? left : right, terrain_->frame);
-    cells.steepest = std::nextafter(float(std::max(one, other)), std::numeric_limits<float>::infinity());
+    double one = square_of_rise(top, falls ? right : left, cells_per_m_);
+    double other = square_of_rise(bottom, falls ? left : right, cells_per_m_);
+    constexpr float kMore = 1 + 0x1p-21f;  // than rounding takes away
+    cells.steepest = kMore * float(std::sqrt(std::max(one, other)));
     return cells;
 }
 

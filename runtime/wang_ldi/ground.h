@@ -117,6 +117,7 @@ class Ground {
     void visit_samples_inside(const Rect& rect, const Visit& visit) const;
 
     const terrain::Terrain* terrain_ = nullptr;  // null: flat
+    glm::dvec2 cells_per_m_{0};                  // of it, along columns and rows
     double plain_height_m_ = 0;
     Rect extent_;
     Pyramid<Cells> pyramid_;
