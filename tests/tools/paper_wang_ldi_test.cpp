@@ -63,7 +63,7 @@ BakeReport report_of(double unseen, double holes) {
     images.seconds = 600, images.directions = 8;
     images.all.samples = 1000, images.all.bytes = 2000;
     LevelReport level;
-    level.side_px = 300, level.unseen_share_mean = unseen, level.own = Judged{2 * holes, holes, 0.01, 0.3, 0.8, 0.31};
+    level.side_px = 300, level.unseen_share_mean = unseen, level.own = Judged{2 * holes, holes, 0.01, 0.3, 0.8, 0.31, {}, {}};
     images.levels = {level};
     report.images = images;
     return report;
@@ -124,14 +124,20 @@ TEST(Page, HoldsATableOfEveryPlantsAndNoMoreThanWasMeasured) {
     EXPECT_EQ(page.find("Glossy plants"), std::string::npos);
     one.plants[0].gloss = report_of(0, 0), one.plants[0].gloss_none = report_of(0, 0);
     for (auto* report : {&one.plants[0].gloss, &one.plants[0].gloss_none})
-        (*report)->images->all.own = Judged{0, 0, 0, 0.375, 0.8125, 0};
+        (*report)->images->all.own = Judged{0, 0, 0, 0.375, 0.8125, 0, {}, {}};
     std::string glossy = wang_page_html({one, {}, charts, false});
     EXPECT_NE(glossy.find("Glossy plants"), std::string::npos);
     EXPECT_NE(glossy.find(short_number(0.8125)), std::string::npos);
+    EXPECT_EQ(glossy.find("Things thinner"), std::string::npos);
+    one.plants[0].every = report_of(0, 0);
+    one.plants[0].every->images->all.own = Judged{0, 0, 0, 0.5, 0.75, 0, 2.5, 2.625};
+    std::string thin = wang_page_html({one, {}, charts, false});
+    EXPECT_NE(thin.find("Things thinner"), std::string::npos);
+    for (double times : {2.5, 2.625}) EXPECT_NE(thin.find(short_number(times)), std::string::npos);
     std::string levels = levels_csv(one);
-    EXPECT_NE(levels.find("sunflowers,paper,300,0,0,0,0,0,0.15,0.16,0.08,0.01,0.3,0.8,0.31,,,,,,\n"), std::string::npos)
+    EXPECT_NE(levels.find("sunflowers,paper,300,0,0,0,0,0,0.15,0.16,0.08,0.01,0.3,0.8,0.31,,,,,,,,,,\n"), std::string::npos)
         << levels;
-    EXPECT_NE(levels.find("sunflowers,own,300,0,0,0,0,0,0.019,,,,,,,,,,,,\n"), std::string::npos) << levels;
+    EXPECT_NE(levels.find("sunflowers,own,300,0,0,0,0,0,0.019,,,,,,,,,,,,,,,,\n"), std::string::npos) << levels;
     EXPECT_NE(planting_csv(one).find("sunflowers,own,corner,0.30000000000000004,0.5\n"), std::string::npos);
 }
 

@@ -59,6 +59,11 @@ void add_sampling_options(CLI::App& app, ImageArgs& args) {
     app.add_option("--unseen", args.unseen, "Rays stop when so much of what the eyes see is not yet met, as is estimated")
         ->check(command::number_in(1e-4, 0.9))
         ->capture_default_str();
+    app.add_option("--samples", args.samples,
+                   "covering: of things thinner than a sample as many as cover, drawn, what they do. all: all that eyes meet, "
+                   "which draws them wider (as the paper's constants)")
+        ->check(CLI::IsMember({"covering", "all"}))
+        ->capture_default_str();
     app.add_option("--neighbourhoods", args.neighbourhoods, "Of other tiles, that each tile is sampled among")
         ->check(CLI::Range(1u, 16u))
         ->capture_default_str();
@@ -200,6 +205,7 @@ Result<wang_ldi::ImageBake> image_bake_of(const ImageArgs& args, const std::stri
     bake.neighbourhoods = args.neighbourhoods, bake.judged_views = args.judged_views, bake.trial_tiles = args.trial_tiles;
     bake.is_timed = args.is_timed;
     bake.has_border_images = args.has_border_images, bake.is_relit = args.light == "later";
+    bake.is_covering = args.samples == "covering";
     bake.has_gloss = args.gloss == "by-direction";
     double heading = args.sun_heading_deg * M_PI / 180, elevation = args.sun_elevation_deg * M_PI / 180;
     steady::SinCos round = steady::sin_cos(heading), up = steady::sin_cos(elevation);
@@ -236,6 +242,7 @@ void add_image_options_in_words(const ImageArgs& args, container::Provenance& pr
     add("level-ratio", fmt::format("{}", args.level_ratio)), add("direction-px", fmt::format("{}", args.direction_px));
     if (args.constants != "paper") add("fades", fmt::format("levels {}, directions {}", args.level_fade, args.direction_fade));
     add("unseen", fmt::format("{}", args.unseen)), add("neighbourhoods", fmt::format("{}", args.neighbourhoods));
+    if (args.constants != "paper") add("samples", args.samples);
     add("textures", args.textures);
     if (args.textures != "none") add("texture-error", fmt::format("{}", args.texture_error));
     if (args.has_border_images) add("border-images", "true");

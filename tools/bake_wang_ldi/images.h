@@ -19,7 +19,7 @@ struct ImageArgs {
     std::string textures = "32";  // texels a side, or "none"
     double texture_error = 0.04;
     std::string leaves = "trimmed", instructions = "best";
-    std::string light = "baked", gloss = "by-direction";
+    std::string light = "baked", gloss = "by-direction", samples = "covering";
     double sun_heading_deg = 140, sun_elevation_deg = 50, leaf_transmission = 0.35;
     uint32_t sun_rays = 8, sky_rays = 32;
     bool has_border_images = false, is_timed = false;

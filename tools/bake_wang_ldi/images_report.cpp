@@ -30,6 +30,8 @@ ordered_json judgement_json(const Judgement& judgement) {
             {"deeper_share", double(judgement.deeper) / pixels},
             {"nearer_share", double(judgement.nearer) / pixels},
             {"filled_hole_share", double(judgement.holes_left) / pixels},
+            {"covered_times", judgement.covered_times()},
+            {"filled_covered_times", judgement.covered_times_filled()},
             {"e_mean", judgement.mean_error()},
             {"e_p99", judgement.p99_error()},
             {"unfilled_e_mean", judgement.mean_unfilled_error()}};
@@ -165,10 +167,11 @@ void say_images(const wang_ldi::ImageReport& report, const command::Common& comm
             return 100 * double(of) / double(std::max<uint64_t>(1, all.pixels));
         };
         for (const Judgement* judged : {&total.own, &total.foreign})
-            command::note(common, fmt::format("warped among {} neighbours: holes in {:.2f} % of pixels, {:.2f} % when filled; E "
-                                              "{:.3f}, p99 {:.3f}",
+            command::note(common, fmt::format("warped among {} neighbours: holes in {:.2f} % of pixels, {:.2f} % when filled; "
+                                              "{:.2f} times as much covered; E {:.3f}, p99 {:.3f}",
                                               judged == &total.own ? "its own" : "foreign", share(judged->holes, *judged),
-                                              share(judged->holes_left, *judged), judged->mean_error(), judged->p99_error()));
+                                              share(judged->holes_left, *judged), judged->covered_times_filled(),
+                                              judged->mean_error(), judged->p99_error()));
     }
     if (report.texture_side_px > 0) {
         ordered_json textures = textures_json(report);

@@ -202,17 +202,19 @@ TEST(ImageBakes, WarpedShowWhatRaysSee) {
     Judging judging;
     judging.views = 3, judging.size_px = 200;
     double pixels = 0, error_pixels = 0, holes = 0, deeper = 0, nearer = 0, error = 0, error_opposite = 0, missing_opposite = 0;
+    double holes_left = 0;
     for (uint32_t direction = 0; direction < set.direction_count; direction += 2) {
         Which which{0, 0, 0, direction}, opposite{0, 0, 0, (direction + set.direction_count / 2) % set.direction_count};
         Judgement right = judged(models, *stage, set, which, *images->read(index_of(set, which)), bake.light, judging);
         Judgement wrong = judged(models, *stage, set, which, *images->read(index_of(set, opposite)), bake.light, judging);
-        pixels += double(right.pixels), holes += double(right.holes);
+        pixels += double(right.pixels), holes += double(right.holes), holes_left += double(right.holes_left);
         deeper += double(right.deeper), nearer += double(right.nearer), error += right.error_sum,
             error_pixels += double(right.error_pixels);
         error_opposite += wrong.error_sum, missing_opposite += double(wrong.deeper + wrong.holes);
     }
     ASSERT_GT(pixels, 10'000);
-    EXPECT_LT(holes, 0.002 * pixels);
+    EXPECT_LT(holes, 0.004 * pixels);
+    EXPECT_LT(holes_left, 0.001 * pixels);
     EXPECT_LT(deeper, 0.02 * pixels);
     EXPECT_LT(nearer, 0.12 * pixels);
     EXPECT_LT(error, 0.35 * error_pixels);

@@ -59,6 +59,7 @@ TEST(BakeKeys, OfBakesThatDifferInOneThingDiffer) {
         [](Bake& of) { of.bake.memory_bytes = 1; },
         [](Bake& of) { of.bake.seed = 2; },
         [](Bake& of) { of.bake.has_gloss = false; },
+        [](Bake& of) { of.bake.is_covering = false; },
         [](Bake& of) { of.bake.trial_tiles = 1; },
         [](Bake& of) { of.bake.judged_views = 7; },
         [](Bake& of) { of.models.skins[0].looks.push_back({}); },

@@ -194,7 +194,7 @@ Result<ImageReport> SetBake::run(container::Writer& writer, const std::function<
 void take_paper_constants(ImageBake& bake) {
     bake.levels.constants = Constants::paper;
     bake.sampling.fixed_rays = kPaperRays, bake.sampling.rays_per_eye = uint32_t(kPaperRays / kPaperEyes);
-    bake.neighbourhoods = 1;
+    bake.neighbourhoods = 1, bake.is_covering = false;
 }
 
 glm::dvec2 heights_of(const Models& models, const Planting& planting) {

@@ -24,6 +24,7 @@ struct ImageBake {
     uint32_t neighbourhoods = 1;                // that a tile is sampled among, in turn
     bool has_border_images = false;             // besides, each tile alone
     bool has_gloss = true;                      // of samples: as seen from the middle of each image's eyes; else left out
+    bool is_covering = true;                    // of samples of thin things as many as cover what they do; else all
     bool is_relit = false;                      // colours unlit, with normals
     uint32_t judged_views = 0;                  // of the cell, as views_of; of each texture one; 0: none is judged
     bool is_timed = false;                      // each image's rays are shot again for nothing else, to fill ImageReport::rate
@@ -38,7 +39,7 @@ struct ImageBake {
     // several machines, which share the folder or bring its files together; their instructions are alike, or `everywhere`.
     uint64_t part = 0, part_count = 1;
 };
-// What the paper's constants change: levels and directions, 2.5 million rays an image, one neighbourhood.
+// What the paper's constants change: levels and directions, 2.5 million rays an image, one neighbourhood, all samples.
 void take_paper_constants(ImageBake& bake);
 
 struct ImageRow {

@@ -73,7 +73,7 @@ uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& mo
     const TextureOptions& textures = bake.textures;
     key.add(uint64_t(textures.side_px) << 32 | textures.least_eyes), key.add(textures.unseen_goal), key.add(textures.error_goal);
     key.add(textures.most_rays), key.add(uint64_t(textures.rays_per_eye));
-    key.add(uint64_t(bake.trial_tiles) << 32 | uint32_t(bake.has_gloss));
+    key.add(uint64_t(bake.trial_tiles) << 32 | uint32_t(bake.has_gloss) << 1 | uint32_t(bake.is_covering));
     key.add(uint64_t(bake.neighbourhoods) << 32 | bake.judged_views), key.add(bake.memory_bytes), key.add(bake.seed);
     return key.value();
 }

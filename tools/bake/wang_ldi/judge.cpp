@@ -60,9 +60,11 @@ std::vector<float> flip_of(const Warped& drawn, const ImageRgb8& truth) {
 
 void compare_pictures(const Truth& truth, const Warped& drawn, const Warped& filled, double pixel_m, Judgement& judgement) {
     ImageRgb8 right = picture_of(truth.tile);
-    Warped shown = unhidden(filled, truth, pixel_m);
-    std::vector<float> error = flip_of(shown, right), unfilled = flip_of(unhidden(drawn, truth, pixel_m), right);
+    Warped shown = unhidden(filled, truth, pixel_m), shown_unfilled = unhidden(drawn, truth, pixel_m);
+    std::vector<float> error = flip_of(shown, right), unfilled = flip_of(shown_unfilled, right);
     for (size_t p = 0; p < error.size(); ++p) {
+        judgement.covered += truth.tile.colours[p] != 0, judgement.covered_filled += shown.colours[p] != 0;
+        judgement.covered_drawn += shown_unfilled.colours[p] != 0;
         if (truth.tile.colours[p] == 0 && shown.colours[p] == 0) continue;
         ++judgement.error_pixels, judgement.errors.add(double(error[p]));
         judgement.error_sum += double(error[p]), judgement.unfilled_error_sum += double(unfilled[p]);
@@ -89,6 +91,7 @@ double Shares::percentile(double share) const {
 
 void Judgement::add(const Judgement& other) {
     pixels += other.pixels, holes += other.holes, holes_left += other.holes_left;
+    covered += other.covered, covered_drawn += other.covered_drawn, covered_filled += other.covered_filled;
     deeper += other.deeper, nearer += other.nearer, error_pixels += other.error_pixels;
     error_sum += other.error_sum, unfilled_error_sum += other.unfilled_error_sum, errors.add(other.errors);
 }

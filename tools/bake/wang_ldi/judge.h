@@ -39,6 +39,8 @@ struct Judgement {
     uint64_t holes_left = 0;  // nor after small holes were filled (fill_holes)
     uint64_t deeper = 0;      // what is drawn is more than 2 % and two pixels of the level deeper
     uint64_t nearer = 0;      // or so much nearer
+    // Pixels that show the tile: by rays, as drawn, and filled; not where something else hides it.
+    uint64_t covered = 0, covered_drawn = 0, covered_filled = 0;
     // E: LDR-FLIP of what is drawn and filled, at view::kPixelsPerDegree, the tile alone before grey, where something else hides
     // it that too; of the pixels in which rays or the image show the tile.
     uint64_t error_pixels = 0;
@@ -48,6 +50,9 @@ struct Judgement {
     void add(const Judgement& other);
     double mean_error() const { return error_pixels == 0 ? 0 : error_sum / double(error_pixels); }
     double mean_unfilled_error() const { return error_pixels == 0 ? 0 : unfilled_error_sum / double(error_pixels); }
+    // Of what rays say, how much is covered; 0 if they say that nothing is.
+    double covered_times() const { return covered == 0 ? 0 : double(covered_drawn) / double(covered); }
+    double covered_times_filled() const { return covered == 0 ? 0 : double(covered_filled) / double(covered); }
     double p99_error() const { return errors.percentile(0.99); }
 };
 

@@ -13,12 +13,12 @@ namespace overlook::wang_ldi {
 namespace {
 
 // checksum of all that follows, then numbers, then the image's frame.
-constexpr size_t kJudgementNumbers = 8 + Shares::kSteps;
+constexpr size_t kJudgementNumbers = 11 + Shares::kSteps;
 constexpr size_t kChecksumBytes = 8, kNumbers = 7 + 2 * kJudgementNumbers, kHeadBytes = kChecksumBytes + 8 * kNumbers;
 
 void add_numbers(const Judgement& judgement, std::vector<uint64_t>& numbers) {
     numbers.insert(numbers.end(), {judgement.pixels, judgement.holes, judgement.holes_left, judgement.deeper, judgement.nearer,
-                                   judgement.error_pixels, std::bit_cast<uint64_t>(judgement.error_sum),
+                                   judgement.covered, judgement.covered_drawn, judgement.covered_filled, judgement.error_pixels, std::bit_cast<uint64_t>(judgement.error_sum),
                                    std::bit_cast<uint64_t>(judgement.unfilled_error_sum)});
     numbers.insert(numbers.end(), judgement.errors.counts.begin(), judgement.errors.counts.end());
 }
@@ -58,10 +58,13 @@ std::optional<Shard> shard_of(std::span<const std::byte> bytes) {
                        number(at + 3),
                        number(at + 4),
                        number(at + 5),
-                       std::bit_cast<double>(number(at + 6)),
-                       std::bit_cast<double>(number(at + 7)),
+                       number(at + 6),
+                       number(at + 7),
+                       number(at + 8),
+                       std::bit_cast<double>(number(at + 9)),
+                       std::bit_cast<double>(number(at + 10)),
                        {}};
-        for (size_t step = 0; step < Shares::kSteps; ++step) read.errors.counts[step] = number(at + 8 + step);
+        for (size_t step = 0; step < Shares::kSteps; ++step) read.errors.counts[step] = number(at + 11 + step);
         return read;
     };
     shard.judgement = judgement(6), shard.foreign = judgement(6 + kJudgementNumbers);

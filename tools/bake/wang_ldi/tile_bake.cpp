@@ -5,6 +5,7 @@
 #include "runtime/wang_ldi/random.h"
 #include "tools/bake/wang_ldi/assemble.h"
 #include "tools/bake/wang_ldi/bake_textures.h"
+#include "tools/bake/wang_ldi/covering.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -43,9 +44,11 @@ Sampled TileBake::sampled_and_lit(std::span<const TraceStage> stages, const Wedg
                                   uint64_t light_seed, std::vector<glm::vec3>& colours, Rate& rate) const {
     double begin = thread_s();
     Sampled all = sampled(models_, stages, wedge, options);
+    rate.sampled_s += thread_s() - begin, rate.rays += all.rays;
+    if (bake_.is_covering) all = covering(stages, wedge, set_.cell.focal_px, std::move(all), options.seed);
     double lit = thread_s();
     colours = colours_of(stages, all, wedge, light_seed);
-    rate.lit_s += thread_s() - lit, rate.sampled_s += lit - begin, rate.rays += all.rays;
+    rate.lit_s += thread_s() - lit;
     if (!bake_.is_timed) return all;
     rate.bare_s += bare_s(stages, wedge, options, all.eyes);
     if (!set_.has_normals) time_shadow_rays(stages, all.samples, wedge, light_seed, rate);

@@ -22,7 +22,7 @@ struct Size {
 struct Plants {
     std::string name;
     BakeReport paper, own, single, robinson;
-    std::optional<BakeReport> gloss, gloss_none;
+    std::optional<BakeReport> gloss, gloss_none, every;  // as Subject's
     Size paper_size, own_size;
     Figure2 figure_2;
     std::vector<FlownLand> lands;            // section 6; none: the folder has no scenes

@@ -88,11 +88,15 @@ std::string number(const std::optional<Judged>& judged, double Judged::*of) {
     return judged ? short_number((*judged).*of) : "";
 }
 
+std::string times(const std::optional<Judged>& judged, std::optional<double> Judged::*of) {
+    return judged && (*judged).*of ? short_number(*((*judged).*of)) : "";
+}
+
 std::string levels_html(const Plants& plants) {
     std::string html =
         kTable +
         table_row({"", "pixels a side", "from, m", "samples", "bytes", "bytes a sample", "rays", "unseen, %", "holes, %",
-                   "filled, %", "among others, %", "filled, %", "too deep, %", "E", "E p99", "E among others"},
+                   "filled, %", "among others, %", "filled, %", "covered, times", "too deep, %", "E", "E p99", "E among others"},
                   "th") +
         "</thead>\n<tbody>\n";
     for (const auto& [title, report] : {rows_of(plants)[0], rows_of(plants)[1]}) {
@@ -104,7 +108,7 @@ std::string levels_html(const Plants& plants) {
                                short_count(double(level.rays)), short_number(100 * level.unseen_share_mean),
                                share(level.own, &Judged::hole_share), share(level.own, &Judged::filled_hole_share),
                                share(level.foreign, &Judged::hole_share), share(level.foreign, &Judged::filled_hole_share),
-                               share(level.own, &Judged::deeper_share), number(level.own, &Judged::e_mean),
+                               times(level.own, &Judged::filled_covered_times), share(level.own, &Judged::deeper_share), number(level.own, &Judged::e_mean),
                                number(level.own, &Judged::e_p99), number(level.foreign, &Judged::e_mean)},
                               "td", attributes);
         };
@@ -112,11 +116,31 @@ std::string levels_html(const Plants& plants) {
         for (const LevelReport& level : report.images->levels) row(title, level, "");
     }
     return html + kTableEnd +
-           "<p class=\"note\">Unseen: estimated when sampling stopped. Holes, too deep, E (LDR-FLIP): pictures of images by "
+           "<p class=\"note\">Unseen: estimated when sampling stopped. Covered: pixels that show something, of those where "
+           "rays do. Holes, too deep, E (LDR-FLIP): pictures of images by "
            "the warper beside what rays see from there, over random views of the cell, among the neighbours they were sampled "
            "among "
            "and among others, before and after small holes are filled (E: after); empty where the bake was not judged. <a "
            "href=\"levels.csv\">levels.csv</a></p>\n";
+}
+
+// What covers as much as it does beside all that eyes meet of it.
+std::string covering_html(const Plants& plants) {
+    if (!plants.every || !plants.every->images || !plants.own.images) return "";
+    std::string html = "<h3>Things thinner than a sample</h3>\n" + std::string(kTable) +
+                       table_row({"", "samples a tile", "covered, times", "unfilled", "filled holes, %", "E", "E p99", "E, unfilled"},
+                                 "th") +
+                       "</thead>\n<tbody>\n";
+    auto row = [&](const char* title, const ImagesReport& images, double tiles) {
+        const std::optional<Judged>& all = images.all.own;
+        html += table_row({title, short_count(double(images.all.samples) / tiles), times(all, &Judged::filled_covered_times),
+                           times(all, &Judged::covered_times), share(all, &Judged::filled_hole_share),
+                           number(all, &Judged::e_mean), number(all, &Judged::e_p99), number(all, &Judged::unfilled_e_mean)},
+                          "td");
+    };
+    row("as many samples as cover what they do", *plants.own.images, double(std::max(1u, plants.own.tiles)));
+    row("all that eyes meet, one tile", *plants.every->images, 1);
+    return html + kTableEnd + "<p class=\"note\">Beside rays, over random views of the cell. 1: as much is covered as rays say.</p>\n";
 }
 
 // Glossy plants beside rays that see the gloss from each eye.
@@ -150,7 +174,7 @@ std::string plants_html(const WangPage& page, const Plants& plants) {
            "</h2>\n" + planting_html(plants) +
            charts_html(page, "density-" + plants.name, "1: as densely as anywhere. Steps are few objects wide.") +
            figures_html(plants.pictures, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" +
-           levels_html(plants) + directions_html(plants) + gloss_html(plants) + figures_html(plants.pictures, 7, 12);
+           levels_html(plants) + covering_html(plants) + directions_html(plants) + gloss_html(plants) + figures_html(plants.pictures, 7, 12);
 }
 
 }  // namespace

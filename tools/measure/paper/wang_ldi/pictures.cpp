@@ -101,6 +101,7 @@ Result<Plants> plants_of(const Subject& subject, const std::function<void(double
     plants.name = subject.name;
     plants.paper = subject.of_paper, plants.own = subject.of_own, plants.single = subject.of_single;
     plants.robinson = subject.of_robinson, plants.gloss = subject.gloss, plants.gloss_none = subject.gloss_none;
+    plants.every = subject.every;
     plants.paper_size = size_of(subject.paper), plants.own_size = size_of(subject.own);
     auto whole = figure_2(subject);
     if (!whole) return tl::unexpected(whole.error());

@@ -17,6 +17,8 @@ struct Judged {
     double deeper_share = 0;       // something too deep is
     double e_mean = 0, e_p99 = 0;  // LDR-FLIP, filled
     double unfilled_e_mean = 0;
+    // Pixels that show something, of those where rays do; none of reports that do not say it.
+    std::optional<double> covered_times{}, filled_covered_times{};
 };
 
 struct LevelReport {

@@ -42,6 +42,7 @@ struct Subject {
     std::optional<Bake> one, eight;            // without light, of one direction and of eight, the same levels; both or neither
     BakeReport of_paper, of_own, of_single, of_robinson;
     std::optional<BakeReport> gloss, gloss_none;  // of glossy plants, as each direction sees them, and without gloss
+    std::optional<BakeReport> every;              // of one tile, with all samples that eyes meet
     std::vector<std::pair<std::string, ImageRgb8>> sheet, own_sheet;  // sheet_names(), of paper and own
 };
 
@@ -49,7 +50,7 @@ struct Subject {
 const std::vector<std::string>& sheet_names();
 
 // Reads paper.ovl, own.ovl, single.ovl and unlit.ovl, their reports (paper.json and so on, without unlit's; robinson.json of a
-// bake of Robinson's tiles; gloss.json and gloss-none.json, if they are there), scene.ovl, single-scene.ovl and own-scene.ovl of
+// bake of Robinson's tiles; gloss.json, gloss-none.json and every.json, if they are there), scene.ovl, single-scene.ovl and own-scene.ovl of
 // --only scene, and the sheets (sheet/, sheet-own/). Fails as their readers do, and with Exit::bad_input: "a/paper.json: is of
 // another bake: 1,200 samples, paper.ovl has 900", "a/scene.ovl: is of other ground than a/paper.ovl".
 Result<Subject> read_subject(const std::string& folder);

@@ -12,9 +12,11 @@ std::vector<Row> rows_of(const Plants& plants) {
 }
 
 std::string judged_csv(const std::optional<Judged>& judged) {
-    if (!judged) return ",,,,,";
-    return fmt::format("{},{},{},{},{},{}", judged->hole_share, judged->filled_hole_share, judged->deeper_share, judged->e_mean,
-                       judged->e_p99, judged->unfilled_e_mean);
+    if (!judged) return ",,,,,,,";
+    auto text = [](const std::optional<double>& number) { return number ? fmt::format("{}", *number) : std::string(); };
+    return fmt::format("{},{},{},{},{},{},{},{}", judged->hole_share, judged->filled_hole_share, judged->deeper_share,
+                       judged->e_mean, judged->e_p99, judged->unfilled_e_mean, text(judged->covered_times),
+                       text(judged->filled_covered_times));
 }
 
 }  // namespace
@@ -43,8 +45,10 @@ std::string sets_csv(const Flown& flown) {
 std::string levels_csv(const Flown& flown) {
     std::string csv =
         "plants,bake,side_px,nearest_m,images,samples,bytes,rays,unseen_share_mean,hole_share,filled_hole_share,deeper_share,"
-        "e_mean_flip,e_p99_flip,unfilled_e_mean_flip,foreign_hole_share,foreign_filled_hole_share,foreign_deeper_share,"
-        "foreign_e_mean_flip,foreign_e_p99_flip,foreign_unfilled_e_mean_flip\n";
+        "e_mean_flip,e_p99_flip,unfilled_e_mean_flip,covered_times,filled_covered_times,foreign_hole_share,"
+        "foreign_filled_hole_share,foreign_deeper_share,"
+        "foreign_e_mean_flip,foreign_e_p99_flip,foreign_unfilled_e_mean_flip,foreign_covered_times,"
+        "foreign_filled_covered_times\n";
     for (const Plants& plants : flown.plants)
         for (const auto& [bake, report] : rows_of(plants)) {
             if (!report.images) continue;

@@ -1,0 +1,27 @@
+// What is thinner than a sample is drawn wide has fewer samples than eyes meet of it, or it would be drawn wider than it is: as
+// many as cover, drawn, as much of a picture as it does.
+//
+// Based on: E. Enderton, E. Sintorn, P. Shirley, D. Luebke, Stochastic Transparency, 2010 (what covers a pixel in part is drawn
+// there or not, as often as it covers it). Different: decided once for each sample, by numbers spread evenly over space, so that
+// nothing flickers; and by as much as samples beside each other fall on each other.
+#pragma once
+
+#include <span>
+
+#include "tools/bake/wang_ldi/sample.h"
+
+namespace overlook::wang_ldi {
+
+// How much is covered round a sample, as an eye in the middle of the wedge looks at it: of a window three pixels wide, at the
+// depth of the sample, how much rays meet, and how much samples would cover. What covers about half of the nearly two pixels
+// round it, or a third of a window in which much is, is kept whatever else: without, three times as much grass would be drawn
+// right on average, but with gaps where foliage is dense (of pixels in it 2.6 % after filling, for 0.08). Same arguments, same
+// samples. O(samples), 25 rays each at most.
+// focal_px: of the picture that the image is for, in which samples are drawn in whole pixels, one at least.
+Sampled covering(std::span<const TraceStage> stages, const Wedge& wedge, double focal_px, Sampled all, uint64_t seed);
+
+// The share of samples to keep so that on average as much of a window is covered as `wanted`, 0..1. covered_by[n]: places of it
+// that n samples cover of which that share is kept; solid: those that one covers which is kept in any case.
+double share_covering(double wanted, std::span<const uint32_t> covered_by, uint32_t solid);
+
+}  // namespace overlook::wang_ldi
