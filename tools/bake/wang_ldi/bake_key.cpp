@@ -10,6 +10,9 @@
 namespace overlook::wang_ldi {
 namespace {
 
+// Raised whenever what a part holds, or how it is made, changes.
+constexpr uint64_t kPartsVersion = 2;
+
 // A hash of values and rows of them, as they lie in memory: for a key that never leaves this machine.
 class Key {
   public:
@@ -59,6 +62,7 @@ void add_planting(const TileSet& tiles, const Planting& planting, Key& key) {
 uint64_t key_of(const TileSet& tiles, const Planting& planting, const Models& models, const ImageBake& bake,
                 const ImageSet& set) {
     Key key;
+    key.add(kPartsVersion);
     std::string_view instructions = rays::name_of(bake.instructions);
     for (std::string_view text : {std::string_view(bake.version), instructions})
         key.add_row(std::vector<char>(text.begin(), text.end()));

@@ -12,11 +12,11 @@ namespace {
 constexpr uint64_t kPlaceStream = 51, kKeepStream = 52;
 constexpr uint32_t kSide = 5, kPlaces = kSide * kSide, kOwnPlaces = 9;  // of a window; of its middle
 constexpr double kWide_px = 3, kDeep_px = 2;                            // of a window; from a sample to both sides
-constexpr int kReach_px = 3;                                            // samples farther off cover nothing of a window
 constexpr uint32_t kMostOverEachOther = 31;                             // more count as so many
 // A sample is kept in any case where so many of its own places are met; or fewer, but so many of the whole window.
 constexpr uint8_t kOwnMet = 4, kOwnMetAmongMany = 2, kManyMet = 9;
-constexpr size_t kAtOnce = 256;                                         // samples whose rays are shot together
+constexpr double kWidestWedge_rad = M_PI / 3;  // to both sides: what its middle eye sees of a thing tells of what others do
+constexpr size_t kAtOnce = 256;                // samples whose rays are shot together
 
 // Places of a window, in pixels across the line of sight; those of its middle first.
 struct Places {
@@ -111,7 +111,8 @@ class Coverer {
         Places places(seed_, samples_[s]);
         for (size_t place = first_place; place < last_place; ++place) {
             glm::dvec3 aside = places.right[place] * sight.right + places.up[place] * sight.up - kDeep_px * sight.along;
-            rays_.push_back({glm::vec3(sight.at_m + pixel_m_ * aside), glm::vec3(sight.along), 0, float(2 * kDeep_px * pixel_m_)});
+            rays_.push_back(
+                {glm::vec3(sight.at_m + pixel_m_ * aside), glm::vec3(sight.along), 0, float(2 * kDeep_px * pixel_m_)});
             of_.push_back(s);
         }
     }
@@ -126,10 +127,10 @@ class Coverer {
         Places places(seed_, samples_[s]);
         std::array<uint32_t, kPlaces> covered{};
         std::array<bool, kPlaces> is_covered{};
-        visit_near(samples_[s], [&](size_t t) {
+        double reach = (kWide_px + sight.splat_px) / 2, half = sight.splat_px / 2;
+        visit_near(samples_[s], int(std::ceil(std::max(reach, kDeep_px + 1))), [&](size_t t) {
             glm::dvec3 way = (place_m(samples_[t]) - sight.at_m) / pixel_m_;
             double right = glm::dot(way, sight.right), up = glm::dot(way, sight.up);
-            double reach = (kWide_px + sight.splat_px) / 2, half = sight.splat_px / 2;
             if (std::abs(glm::dot(way, sight.along)) > kDeep_px || std::abs(right) > reach || std::abs(up) > reach) return;
             for (size_t p = 0; p < kPlaces; ++p) {
                 bool covers = std::abs(right - places.right[p]) <= half && std::abs(up - places.up[p]) <= half;
@@ -144,13 +145,21 @@ class Coverer {
         }
         return share_covering(double(met_[s]) / kPlaces, covered_by, solid);
     }
+    // Samples so many columns, rows and layers from one at most.
     template <class Visit>
-    void visit_near(const Sample& of, const Visit& visit) const {
+    void visit_near(const Sample& of, int reach, const Visit& visit) const {
         int side = int(wedge_.side_px), column = int(of.pixel) % side, row = int(of.pixel) / side;
-        for (int y = std::max(0, row - kReach_px); y <= std::min(side - 1, row + kReach_px); ++y)
-            for (int x = std::max(0, column - kReach_px); x <= std::min(side - 1, column + kReach_px); ++x)
-                for (uint32_t t = first_[size_t(y * side + x)]; t < first_[size_t(y * side + x) + 1]; ++t)
-                    if (samples_[t].layer + kReach_px >= of.layer && samples_[t].layer <= of.layer + kReach_px) visit(t);
+        for (int y = std::max(0, row - reach); y <= std::min(side - 1, row + reach); ++y)
+            for (int x = std::max(0, column - reach); x <= std::min(side - 1, column + reach); ++x) {
+                auto pixel = size_t(y) * size_t(side) + size_t(x);
+                uint32_t lowest = of.layer - std::min(of.layer, uint32_t(reach));
+                auto first = std::lower_bound(samples_.begin() + first_[pixel], samples_.begin() + first_[pixel + 1], lowest,
+                                              [](const Sample& sample, uint32_t layer) { return sample.layer < layer; });
+                for (size_t t = size_t(first - samples_.begin()); t < first_[pixel + 1]; ++t) {
+                    if (samples_[t].layer > of.layer + uint32_t(reach)) break;
+                    visit(t);
+                }
+            }
     }
     // 0 <= it < 1, far from each other for cubes near each other (as evenly_spread).
     double spread_of(const Sample& sample) const {
@@ -179,6 +188,7 @@ double share_covering(double wanted, std::span<const uint32_t> covered_by, uint3
     constexpr int kSteps = 12;
     uint32_t all = solid;
     for (uint32_t count : covered_by) all += count;
+    if (all == 0) return 1;
     auto covered = [&](double share) {
         double sum = solid, none = 1;
         for (uint32_t count : covered_by) sum += count * (1 - none), none *= 1 - share;
@@ -194,6 +204,7 @@ double share_covering(double wanted, std::span<const uint32_t> covered_by, uint3
 }
 
 Sampled covering(std::span<const TraceStage> stages, const Wedge& wedge, double focal_px, Sampled all, uint64_t seed) {
+    if (wedge.half_width_rad > kWidestWedge_rad) return all;
     all.samples = Coverer(stages, wedge, focal_px, all.samples, seed).kept();
     return all;
 }

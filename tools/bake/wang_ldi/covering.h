@@ -12,16 +12,18 @@
 
 namespace overlook::wang_ldi {
 
-// How much is covered round a sample, as an eye in the middle of the wedge looks at it: of a window three pixels wide, at the
-// depth of the sample, how much rays meet, and how much samples would cover. What covers about half of the nearly two pixels
-// round it, or a third of a window in which much is, is kept whatever else: without, three times as much grass would be drawn
-// right on average, but with gaps where foliage is dense (of pixels in it 2.6 % after filling, for 0.08). Same arguments, same
-// samples. O(samples), 25 rays each at most.
+// Of a window three pixels wide round each sample, at its depth, as an eye in the middle of the wedge looks at it: how much rays
+// meet, and how much samples would cover. A sample is kept whatever else where about half of its own places are met (nearly two
+// pixels wide), or fewer among many: without, grass covers 1.09 times what it should, for 1.44, but where it is dense
+// 2.6 % of its pixels stay empty when small holes are filled, for 0.08 %. Of a wedge wider than
+// 60 degrees to both sides all are kept: an eye in its middle does not tell how a thing looks to the others. Same arguments, same
+// samples. 25 rays a sample at most.
 // focal_px: of the picture that the image is for, in which samples are drawn in whole pixels, one at least.
 Sampled covering(std::span<const TraceStage> stages, const Wedge& wedge, double focal_px, Sampled all, uint64_t seed);
 
-// The share of samples to keep so that on average as much of a window is covered as `wanted`, 0..1. covered_by[n]: places of it
-// that n samples cover of which that share is kept; solid: those that one covers which is kept in any case.
+// The share of samples to keep (1 of no place) so that on average as much of a window is covered as `wanted`, 0..1.
+// covered_by[n]: places of it that n samples cover of which that share is kept; solid: those that one covers which is kept in any
+// case.
 double share_covering(double wanted, std::span<const uint32_t> covered_by, uint32_t solid);
 
 }  // namespace overlook::wang_ldi

@@ -1,5 +1,5 @@
-// How fast images are sampled and lit, beside a bare loop over the very same rays by the same packets of rays::Scene: what all that
-// is not tracing costs.
+// How fast images are sampled and lit, beside a bare loop over the very same rays by the same packets of rays::Scene: what all
+// that is not tracing costs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace overlook::wang_ldi {
 
-// Seconds of processor time, of the threads that did the work.
+// Seconds of processor time, of the threads that did the work. What decides which samples are kept (covering) is in none.
 struct Rate {
     uint64_t rays = 0, shadow_rays = 0;
     double sampled_s = 0;      // sampled(): eyes, rays, what is met, kept by cube

@@ -17,9 +17,10 @@ constexpr size_t kJudgementNumbers = 11 + Shares::kSteps;
 constexpr size_t kChecksumBytes = 8, kNumbers = 7 + 2 * kJudgementNumbers, kHeadBytes = kChecksumBytes + 8 * kNumbers;
 
 void add_numbers(const Judgement& judgement, std::vector<uint64_t>& numbers) {
-    numbers.insert(numbers.end(), {judgement.pixels, judgement.holes, judgement.holes_left, judgement.deeper, judgement.nearer,
-                                   judgement.covered, judgement.covered_drawn, judgement.covered_filled, judgement.error_pixels, std::bit_cast<uint64_t>(judgement.error_sum),
-                                   std::bit_cast<uint64_t>(judgement.unfilled_error_sum)});
+    numbers.insert(numbers.end(),
+                   {judgement.pixels, judgement.holes, judgement.holes_left, judgement.deeper, judgement.nearer,
+                    judgement.covered, judgement.covered_drawn, judgement.covered_filled, judgement.error_pixels,
+                    std::bit_cast<uint64_t>(judgement.error_sum), std::bit_cast<uint64_t>(judgement.unfilled_error_sum)});
     numbers.insert(numbers.end(), judgement.errors.counts.begin(), judgement.errors.counts.end());
 }
 

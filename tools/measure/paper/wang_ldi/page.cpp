@@ -102,15 +102,16 @@ std::string levels_html(const Plants& plants) {
     for (const auto& [title, report] : {rows_of(plants)[0], rows_of(plants)[1]}) {
         if (!report.images) continue;
         auto row = [&](const std::string& name, const LevelReport& level, const char* attributes) {
-            html += table_row({name, std::to_string(level.side_px), short_number(level.nearest_m),
-                               short_count(double(level.samples)), short_bytes(double(level.bytes)),
-                               short_number(double(level.bytes) / double(std::max<uint64_t>(1, level.samples))),
-                               short_count(double(level.rays)), short_number(100 * level.unseen_share_mean),
-                               share(level.own, &Judged::hole_share), share(level.own, &Judged::filled_hole_share),
-                               share(level.foreign, &Judged::hole_share), share(level.foreign, &Judged::filled_hole_share),
-                               times(level.own, &Judged::filled_covered_times), share(level.own, &Judged::deeper_share), number(level.own, &Judged::e_mean),
-                               number(level.own, &Judged::e_p99), number(level.foreign, &Judged::e_mean)},
-                              "td", attributes);
+            html += table_row(
+                {name, std::to_string(level.side_px), short_number(level.nearest_m), short_count(double(level.samples)),
+                 short_bytes(double(level.bytes)),
+                 short_number(double(level.bytes) / double(std::max<uint64_t>(1, level.samples))),
+                 short_count(double(level.rays)), short_number(100 * level.unseen_share_mean),
+                 share(level.own, &Judged::hole_share), share(level.own, &Judged::filled_hole_share),
+                 share(level.foreign, &Judged::hole_share), share(level.foreign, &Judged::filled_hole_share),
+                 times(level.own, &Judged::filled_covered_times), share(level.own, &Judged::deeper_share),
+                 number(level.own, &Judged::e_mean), number(level.own, &Judged::e_p99), number(level.foreign, &Judged::e_mean)},
+                "td", attributes);
         };
         row(fmt::format("{}, all", title), report.images->all, " class=\"floor\"");
         for (const LevelReport& level : report.images->levels) row(title, level, "");
@@ -127,10 +128,10 @@ std::string levels_html(const Plants& plants) {
 // What covers as much as it does beside all that eyes meet of it.
 std::string covering_html(const Plants& plants) {
     if (!plants.every || !plants.every->images || !plants.own.images) return "";
-    std::string html = "<h3>Things thinner than a sample</h3>\n" + std::string(kTable) +
-                       table_row({"", "samples a tile", "covered, times", "unfilled", "filled holes, %", "E", "E p99", "E, unfilled"},
-                                 "th") +
-                       "</thead>\n<tbody>\n";
+    std::string html =
+        "<h3>Things thinner than a sample</h3>\n" + std::string(kTable) +
+        table_row({"", "samples a tile", "covered, times", "unfilled", "filled holes, %", "E", "E p99", "E, unfilled"}, "th") +
+        "</thead>\n<tbody>\n";
     auto row = [&](const char* title, const ImagesReport& images, double tiles) {
         const std::optional<Judged>& all = images.all.own;
         html += table_row({title, short_count(double(images.all.samples) / tiles), times(all, &Judged::filled_covered_times),
@@ -140,7 +141,9 @@ std::string covering_html(const Plants& plants) {
     };
     row("as many samples as cover what they do", *plants.own.images, double(std::max(1u, plants.own.tiles)));
     row("all that eyes meet, one tile", *plants.every->images, 1);
-    return html + kTableEnd + "<p class=\"note\">Beside rays, over random views of the cell. 1: as much is covered as rays say.</p>\n";
+    return html + kTableEnd +
+           "<p class=\"note\">Beside rays, over random views of the cell. 1: as much is covered as rays say. The first is of all "
+           "tiles, the other of one of them.</p>\n";
 }
 
 // Glossy plants beside rays that see the gloss from each eye.
@@ -174,7 +177,8 @@ std::string plants_html(const WangPage& page, const Plants& plants) {
            "</h2>\n" + planting_html(plants) +
            charts_html(page, "density-" + plants.name, "1: as densely as anywhere. Steps are few objects wide.") +
            figures_html(plants.pictures, 5, 6) + "<h2>Figures 7 to 9, 11 and 12: images, " + name + "</h2>\n" +
-           levels_html(plants) + covering_html(plants) + directions_html(plants) + gloss_html(plants) + figures_html(plants.pictures, 7, 12);
+           levels_html(plants) + covering_html(plants) + directions_html(plants) + gloss_html(plants) +
+           figures_html(plants.pictures, 7, 12);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ std::optional<Judged> judged_of(const json& level, const char* among) {
     if (!level.contains(among)) return std::nullopt;
     const json& of = level.at(among);
     auto said = [&](const char* name) { return of.contains(name) ? std::optional<double>(of.at(name)) : std::nullopt; };
-    return Judged{of.at("hole_share"), of.at("filled_hole_share"), of.at("deeper_share"),  of.at("e_mean"),
+    return Judged{of.at("hole_share"), of.at("filled_hole_share"), of.at("deeper_share"), of.at("e_mean"),
                   of.at("e_p99"),      of.at("unfilled_e_mean"),   said("covered_times"), said("filled_covered_times")};
 }
 

@@ -90,9 +90,8 @@ Result<Subject> read_subject(const std::string& folder) {
     if (done) done = read_scene_of(at("scene.ovl"), subject.paper, subject.scene);
     if (done) done = read_scene_of(at("single-scene.ovl"), subject.single, subject.single_scene);
     if (done) done = read_scene_of(at("own-scene.ovl"), subject.own, subject.own_scene);
-    for (auto [name, report] : {std::pair("gloss.json", &subject.gloss),
-                                {"gloss-none.json", &subject.gloss_none},
-                                {"every.json", &subject.every}})
+    for (auto [name, report] :
+         {std::pair("gloss.json", &subject.gloss), {"gloss-none.json", &subject.gloss_none}, {"every.json", &subject.every}})
         if (done && std::filesystem::exists(at(name))) done = read_report_of(at(name), nullptr, report->emplace());
     if (done) done = read_sheet(at("sheet"), subject.sheet);
     if (done) done = read_sheet(at("sheet-own"), subject.own_sheet);

@@ -50,9 +50,9 @@ struct Subject {
 const std::vector<std::string>& sheet_names();
 
 // Reads paper.ovl, own.ovl, single.ovl and unlit.ovl, their reports (paper.json and so on, without unlit's; robinson.json of a
-// bake of Robinson's tiles; gloss.json, gloss-none.json and every.json, if they are there), scene.ovl, single-scene.ovl and own-scene.ovl of
-// --only scene, and the sheets (sheet/, sheet-own/). Fails as their readers do, and with Exit::bad_input: "a/paper.json: is of
-// another bake: 1,200 samples, paper.ovl has 900", "a/scene.ovl: is of other ground than a/paper.ovl".
+// bake of Robinson's tiles; gloss.json, gloss-none.json and every.json, if they are there), scene.ovl, single-scene.ovl and
+// own-scene.ovl of --only scene, and the sheets (sheet/, sheet-own/). Fails as their readers do, and with Exit::bad_input:
+// "a/paper.json: is of another bake: 1,200 samples, paper.ovl has 900", "a/scene.ovl: is of other ground than a/paper.ovl".
 Result<Subject> read_subject(const std::string& folder);
 
 }  // namespace overlook::measure::paper::wang
