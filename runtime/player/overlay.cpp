@@ -24,8 +24,10 @@ void planting_lines(const wang_ldi::FrameCounts& planting, bool shows_rings) {
         text_line(fmt::format("       {} of {} images have others in their place, {} are missing", planting.images.stand_ins,
                               planting.images.images, planting.images.missing));
     if (planting.is_eye_outside)
-        text_line(fmt::format("       outside the cell: images were not sampled for eyes so high above the ground ({} tiles)",
-                              planting.field.outside_cell));
+        text_line(
+            fmt::format("       outside the cell: images were not sampled for eyes so high above the ground ({} tiles "
+                        "by images for other eyes)",
+                        planting.field.outside_cell));
     if (shows_rings) text_line("hues: levels, from near to far; dark and light: directions");
 }
 

@@ -119,7 +119,8 @@ FarImages::FarImages(const TextureSet& textures)
       directions_(textures.direction_count),
       least_needs_(size_t(tiles_) * levels_, std::numeric_limits<float>::infinity()),
       least_high_m_(levels_, std::numeric_limits<float>::infinity()) {
-    for (uint32_t direction = 0; direction < directions_; ++direction) breadths_.push_back(float(breadth_of(direction, directions_)));
+    for (uint32_t direction = 0; direction < directions_; ++direction)
+        breadths_.push_back(float(breadth_of(direction, directions_)));
     for (uint32_t context = 0; context < textures.context_count; ++context)
         for (uint32_t tile = 0; tile < tiles_; ++tile)
             for (uint32_t direction = 0; direction < directions_; ++direction) {
@@ -146,8 +147,8 @@ void FarImages::take(const FarPicture& picture, uint32_t tile, uint32_t level) {
 }
 
 uint64_t FarImages::bytes() const {
-    uint64_t bytes =
-        pictures_.size() * sizeof(FarPicture) + means_.size() * sizeof(FarMean) + least_needs_.size() * sizeof(float);
+    uint64_t bytes = pictures_.size() * sizeof(FarPicture) + means_.size() * sizeof(FarMean) +
+                     (least_needs_.size() + least_high_m_.size() + breadths_.size()) * sizeof(float);
     for (const FarPicture& picture : pictures_)
         bytes += picture.first.size() * sizeof(uint32_t) + 2 * picture.samples.size() * sizeof(FarSample);
     return bytes;

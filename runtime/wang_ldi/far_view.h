@@ -52,6 +52,7 @@ class FarView {
         return place;
     }
 
+    // But for its distance, where a block says the rest.
     Chosen chosen_at(const FarPlace& place, const FarBlock& block) const {
         if (block.is_of_one && block.direction) return {0, {block.rung, block.rung, 0}, {*block.direction, *block.direction, 0}};
         return field_.chosen(glm::dvec2(eye_.position_m) - place.middle_m, eye_.position_m.z - place.ground_m);
