@@ -14,7 +14,7 @@ constexpr uint32_t kSide = 5, kPlaces = kSide * kSide, kOwnPlaces = 9;  // of a 
 constexpr double kWide_px = 3, kDeep_px = 2;                            // of a window; from a sample to both sides
 constexpr uint32_t kMostOverEachOther = 31;                             // more count as so many
 // A sample is kept in any case where so many of its own places are met; or fewer, but so many of the whole window.
-constexpr uint8_t kOwnMet = 4, kOwnMetAmongMany = 2, kManyMet = 9;
+constexpr uint8_t kOwnMet = 4, kOwnMetAmongMany = 2, kManyMet = 6;
 constexpr double kWidestWedge_rad = M_PI / 3;  // to both sides: what its middle eye sees of a thing tells of what others do
 constexpr size_t kAtOnce = 256;                // samples whose rays are shot together
 
