@@ -126,12 +126,10 @@ FieldOptions field_options_of(const ImageSet& images, const FrameOptions& option
     if (!is_paper) {
         LadderOptions& ladder = made.ladder;
         ladder.fade_share = options.fade, made.direction_fade_share = options.direction_fade;
-        made.error_px = options.error_px, made.displacement_px = options.error_px * kOfGround;
-        // Images were made for another picture than this, and another error.
-        ladder.coarser = options.error_px / images.cell.error_px * images.cell.focal_px / view::focal_px(camera);
+        made.error_px = options.error_px, made.displacement_px = options.error_px * kOfGround, ladder.coarser = options.error_px;
         double rim_m = std::sqrt(0.5) * images.tile_m / (1 - options.fade);
         ladder.texel_from_m = images.tile_m / texture_side_px * texels_from(camera, options.error_px, options.fade) + rim_m;
-        ladder.texture_from_m = std::max(images.cell.farthest_m / std::max(1.0, ladder.coarser), ladder.texel_from_m);
+        ladder.texture_from_m = std::max(images.cell.farthest_m / std::max(1.0, options.error_px), ladder.texel_from_m);
         ladder.samples_from = samples_from(camera, options.error_px * (1 - kOfGround), options.fade);
         made.widens_splats = options.widens_splats;
         if (!options.has_far) ladder.radius_m = ladder.texture_from_m;

@@ -84,7 +84,7 @@ TEST(Race, HasTheSameGeometryInPlaceOfAllImages) {
     Land& land = lands->front();
     ASSERT_TRUE(upload(land.world));
     std::vector<FieldRow> rows;
-    std::vector<view::Camera> cameras = Guide(land).steps(2, 192, 128);
+    std::vector<view::Camera> cameras = Guide(land).steps(2, 96, 64);
     auto raced = race_geometry(land, cameras, context->renderer(), rows);
     ASSERT_TRUE(raced) << raced.error().message;
     ASSERT_EQ(rows.size(), 12u);

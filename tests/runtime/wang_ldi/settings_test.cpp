@@ -26,9 +26,9 @@ FrameOptions with(const char* name, double value) {
     set(options, name, value);
     return options;
 }
-FieldOptions field_options(const FrameOptions& options, const view::Camera& camera = on_hills()) {
+FieldOptions field_options(const FrameOptions& options) {
     constexpr uint32_t kTextureSide_px = 32;
-    return field_options_of(hilly_field().images, options, camera, kTextureSide_px);
+    return field_options_of(hilly_field().images, options, on_hills(), kTextureSide_px);
 }
 FieldList listed(const FrameOptions& options) {
     return list_of(hilly_field().field(field_options(options)), on_hills());
@@ -86,15 +86,9 @@ TEST(PlantingSettings, OfWiderSamplesBeginLevelsNearer) {
             if (rung.stage == Stage::ldi && rung.level == level) return rung.from_m;
         return -1.0;
     };
-    const Cell& cell = hilly_field().images.cell;
-    view::Camera camera = on_hills();
-    double larger = view::focal_px(camera) / cell.focal_px * cell.error_px;  // than the picture that images were made for
-    EXPECT_DOUBLE_EQ(level_from(one, 1), 6 * larger);
-    EXPECT_DOUBLE_EQ(level_from(two, 1), 3 * larger);
-    EXPECT_DOUBLE_EQ(level_from(two, 2), 5 * larger);
-    camera.width_px *= 2, camera.height_px *= 2;
-    Field fine = hilly_field().field(field_options(with("error-px", 2), camera));
-    EXPECT_DOUBLE_EQ(level_from(fine, 1), 6 * larger) << "twice as many pixels, twice the error";
+    EXPECT_DOUBLE_EQ(level_from(one, 1), 6);
+    EXPECT_DOUBLE_EQ(level_from(two, 1), 3);
+    EXPECT_DOUBLE_EQ(level_from(two, 2), 5);
     EXPECT_LT(list_of(two, on_hills()).counts.samples, list_of(one, on_hills()).counts.samples);
     EXPECT_GT(listed(with("error-px", 0.5)).counts.samples, list_of(one, on_hills()).counts.samples);
 }
