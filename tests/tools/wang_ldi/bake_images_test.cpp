@@ -213,7 +213,7 @@ TEST(ImageBakes, WarpedShowWhatRaysSee) {
         error_opposite += wrong.error_sum, missing_opposite += double(wrong.deeper + wrong.holes);
     }
     ASSERT_GT(pixels, 10'000);
-    EXPECT_LT(holes, 0.004 * pixels);
+    EXPECT_LT(holes, 0.002 * pixels);
     EXPECT_LT(holes_left, 0.001 * pixels);
     EXPECT_LT(deeper, 0.02 * pixels);
     EXPECT_LT(nearer, 0.12 * pixels);
