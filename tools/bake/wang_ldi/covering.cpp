@@ -50,6 +50,8 @@ class Coverer {
           focal_px_(focal_px),
           samples_(samples),
           seed_(seed),
+          shift_(hash_of(seed, kKeepStream, 0, 0)),
+          eye_m_(middle_eye_m(wedge)),
           pixel_m_(wedge.tile_m / wedge.side_px) {
         first_.resize(size_t(wedge.side_px) * wedge.side_px + 1);
         for (const Sample& sample : samples) ++first_[sample.pixel + 1];
@@ -74,7 +76,7 @@ class Coverer {
     Sight sight_of(const Sample& sample) const {
         Sight sight;
         sight.at_m = place_m(sample);
-        glm::dvec3 way = sight.at_m - glm::dvec3(middle_eye_m(wedge_));
+        glm::dvec3 way = sight.at_m - eye_m_;
         double distance_m = std::sqrt(glm::dot(way, way)), wide_px = focal_px_ * pixel_m_ / distance_m;
         sight.along = way / distance_m, sight.splat_px = std::max(1.0, std::floor(wide_px + 0.5)) / wide_px;
         glm::dvec3 level(sight.along.y, -sight.along.x, 0);
@@ -164,8 +166,8 @@ class Coverer {
     // 0 <= it < 1, far from each other for cubes near each other (as evenly_spread).
     double spread_of(const Sample& sample) const {
         constexpr uint64_t kColumn = 0xd1b54a32d192e801u, kRow = 0xabc98388fb8fa001u, kLayer = 0x8cb92ba72f3d8001u;
-        uint64_t sum = hash_of(seed_, kKeepStream, 0, 0) + kColumn * (sample.pixel % wedge_.side_px) +
-                       kRow * (sample.pixel / wedge_.side_px) + kLayer * sample.layer;
+        uint64_t sum =
+            shift_ + kColumn * (sample.pixel % wedge_.side_px) + kRow * (sample.pixel / wedge_.side_px) + kLayer * sample.layer;
         return double(sum >> 11) * 0x1p-53;
     }
 
@@ -173,7 +175,8 @@ class Coverer {
     const Wedge& wedge_;
     double focal_px_;
     const std::vector<Sample>& samples_;
-    uint64_t seed_;
+    uint64_t seed_, shift_;
+    glm::dvec3 eye_m_;
     double pixel_m_;
     std::vector<uint32_t> first_;  // [side_px^2 + 1], of each pixel's
     std::vector<uint8_t> met_;
