@@ -15,10 +15,12 @@ template <class Brush>
 class FarPainter {
   public:
     // All must outlive this.
-    FarPainter(const Eye& eye, const PictureBounds& bounds, const Field& field, const FarImages& far, Brush& brush)
+    FarPainter(const Eye& eye, const PictureBounds& bounds, const Field& field, const FieldList& list, const FarImages& far,
+               Brush& brush)
         : eye_(eye),
           view_(eye, bounds, field),
           field_(field),
+          list_(list),
           parts_(field.parts()),
           ground_(parts_.placement->ground()),
           far_(far),
@@ -61,6 +63,7 @@ class FarPainter {
 
   private:
     static constexpr uint32_t kLooked_log2 = 2;  // before a square is looked at, the texels in it are asked if they draw anything
+    static constexpr uint32_t kHidden_log2 = 1;  // smaller squares are drawn sooner than it is found that the ground hides them
 
     // A square of tiles: as one texel, or in strips, or its quarters, as the rung of its middle says and how flat it looks.
     // block: of a square that it is part of.
@@ -78,6 +81,7 @@ class FarPainter {
             block.is_planted = coverage == Placement::Coverage::all;
         }
         if (log2 < item_->tiles_log2 && (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_))) return;
+        if (log2 < item_->tiles_log2 && log2 >= kHidden_log2 && field_.is_hidden(list_, rect, range.high_m, widest_m_)) return;
         if (!block.is_of_one || log2 > block.tiles_log2 + 1) block = view_.looked_closer(block, rect, range, far_);
         block.is_of_one &= log2 >= block.tiles_log2;  // a field may list squares that are smaller than texels
         if (log2 <= coarsest_log2_ && !(block.is_of_one && log2 > block.tiles_log2) && draw_square({i, j, log2}, block)) return;
@@ -260,6 +264,7 @@ class FarPainter {
     const Eye& eye_;
     FarView view_;
     const Field& field_;
+    const FieldList& list_;
     const FieldParts parts_;
     const Ground& ground_;
     const FarImages& far_;

@@ -46,7 +46,7 @@ class FastTile {
   public:
     FastTile(const FastScene& scene, FastTools& tools)
         : scene_(scene), tools_(tools), brush_(scene.eye, CanvasTarget<hiding>(*tools.canvas), tools.counts) {
-        if (scene.far != nullptr) far_.emplace(scene.eye, scene.bounds, scene.field, *scene.far, brush_);
+        if (scene.far != nullptr) far_.emplace(scene.eye, scene.bounds, scene.field, scene.list, *scene.far, brush_);
     }
 
     void draw(const Item& item);

@@ -10,12 +10,14 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "formats/wang_ldi.h"
 #include "runtime/view/camera.h"
 #include "runtime/wang_ldi/fade.h"
+#include "runtime/wang_ldi/horizon.h"
 #include "runtime/wang_ldi/placement.h"
 #include "runtime/wang_ldi/tiling.h"
 
@@ -45,6 +47,8 @@ struct FieldOptions {
     bool chooses_diagonals = true;  // false: all rise to the north-east
     uint32_t texture_side_px = 32;  // of a tile's textures, a power of two
     double block_share = 0.25;      // side of a block of tiles at most, of its distance; 0..0.5
+    // No place of the ground is drawn farther from where it is: what it hides then is left out. Infinite: it hides nothing.
+    double ground_error_px = std::numeric_limits<double>::infinity();
     bool widens_splats = true;      // by as much as samples stand farther apart on a slope
 };
 // As the paper draws: tiles up to 40 tiles away by images alone, without fades, each sheared in two.
@@ -96,6 +100,7 @@ struct FieldCounts {
     uint64_t blocks_tested = 0, tiles_tested = 0;
     uint64_t blocks_listed = 0, tiles_listed = 0;
     std::array<uint64_t, kVerdicts> tiles_by_verdict{};  // of those in sight
+    uint64_t hidden = 0;                                 // tiles and blocks of them, behind the ground
     uint64_t bare_tiles = 0;                             // planted, but with bare corners only
     uint64_t cut_tiles = 0, pieces = 0;                  // in how many pieces together
     uint64_t displaced_tiles = 0;                        // farther off the ground than asked, with the most pieces too
@@ -115,10 +120,11 @@ struct FieldList {
     std::vector<Shown> shown;
     std::vector<Half> halves;
     FieldCounts counts;
+    std::shared_ptr<const Horizon> horizon;  // null: nothing is hidden
 
     std::span<const Shown> shown_of(const Item& item) const { return {shown.data() + item.first_shown, item.shown_count}; }
     std::span<const Half> halves_of(const Item& item) const { return {halves.data() + item.first_half, item.half_count}; }
-    void clear() { items.clear(), shown.clear(), halves.clear(), counts = {}; }
+    void clear() { items.clear(), shown.clear(), halves.clear(), counts = {}, horizon.reset(); }
     void append(const FieldList& other);  // of the same field and camera, of what is nearer
 };
 
@@ -133,6 +139,7 @@ struct Found {
 struct FieldScratch {
     std::vector<Found> found;
     std::vector<FieldList> parts;
+    std::shared_ptr<const Horizon> horizon;  // of the camera listed for last
 };
 
 // By what a place is shown.
@@ -174,12 +181,20 @@ class Field {
     // By how far rungs are chosen: on the ground, and up as far as the eye is above where images are sampled from.
     double distance_m(const glm::dvec2& ground_m, double eye_above_ground_m) const;
 
+    // Whether the ground hides all of a list's splats so wide, in metres, on such ground. Splats of tiles stand on its images'
+    // heights and a step above at most.
+    bool is_hidden(const FieldList& list, const Rect& rect, double ground_high_m, double wide_m) const {
+        return list.horizon && list.horizon->hides(rect, ground_high_m + highest_m_, wide_m, options_.ground_error_px);
+    }
+
   private:
     Field() = default;
+    std::shared_ptr<const Horizon> horizon(const view::Camera& camera, std::shared_ptr<const Horizon> last) const;
     FieldParts parts_;
     FieldOptions options_;
     Ladder ladder_;
     bool has_geometry_ = false;
+    double highest_m_ = 0;      // anything that is drawn stands above its ground
     double images_to_m_ = 0;    // nothing but images and geometry is shown up to here
     double blocks_from_m_ = 0;  // nothing but textures and colours is shown from here on
     double reach_m_ = 0;        // nothing is

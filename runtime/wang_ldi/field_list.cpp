@@ -5,6 +5,7 @@
 #include "runtime/view/box_error.h"
 #include "runtime/view/pixel_error.h"
 #include "runtime/wang_ldi/field_walk.h"
+#include "runtime/wang_ldi/list_parts.h"
 #include "runtime/wang_ldi/tile_error.h"
 
 namespace overlook::wang_ldi {
@@ -43,7 +44,13 @@ class FieldLister {
         GroundRange range = placement_.ground().range(rect);
         double above_m = eye_m_.z - placement_.ground().height_m((rect.low_m + rect.high_m) / 2.0);
         item.context = images_.context_count == 2 && placement_.is_at_edge(i, j);
+        FieldCounts before = list_.counts;
         if (!show(item, rect, range, above_m)) return;
+        if (is_hidden(item, rect, range)) {
+            list_.shown.resize(item.first_shown), list_.halves.resize(item.first_half), list_.counts = before;
+            ++list_.counts.hidden;
+            return;
+        }
         ++list_.counts.tiles_listed;
         list_.items.push_back(item);
     }
@@ -65,9 +72,18 @@ class FieldLister {
         const Rung& finest = field_.ladder_.rungs[first];
         if (finest.stage == Stage::bare) return;
         item.texels_px = uint32_t(std::max(1.0, std::ldexp(field_.texels_of(finest), log2)));
+        if (is_hidden(item, rect, bound)) return void(++list_.counts.hidden);
         list_.counts.texels += uint64_t(item.texels_px) * item.texels_px;
         ++list_.counts.blocks_listed;
         list_.items.push_back(item);
+    }
+
+    // Geometry reaches over its tile's edges, images do not.
+    bool is_hidden(const Item& item, Rect rect, const GroundRange& ground) const {
+        if (!list_.horizon) return false;
+        double over_m = field_.has_geometry_ ? field_.parts_.overhang_m : 0;
+        rect.low_m -= over_m, rect.high_m += over_m;
+        return field_.is_hidden(list_, rect, ground.high_m, widest_splat_m(field_, list_, item));
     }
 
     // Chooses rungs and directions by the tile's middle; whether anything is shown.
@@ -209,7 +225,7 @@ class FieldLister {
 
 void FieldCounts::add(const FieldCounts& other) {
     for (auto of : {&FieldCounts::blocks_tested, &FieldCounts::tiles_tested, &FieldCounts::blocks_listed,
-                    &FieldCounts::tiles_listed, &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces,
+                    &FieldCounts::tiles_listed, &FieldCounts::hidden, &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces,
                     &FieldCounts::displaced_tiles, &FieldCounts::outside_cell, &FieldCounts::samples, &FieldCounts::texels})
         this->*of += other.*of;
     for (size_t v = 0; v < kVerdicts; ++v) tiles_by_verdict[v] += other.tiles_by_verdict[v];
@@ -229,6 +245,7 @@ void FieldList::append(const FieldList& other) {
 
 void Field::list(const view::Camera& camera, FieldList& list) const {
     list.clear();
+    list.horizon = horizon(camera, nullptr);
     FieldLister lister(*this, camera, list);
     FieldWalk(*this, camera).run(list.counts, [&](const Found& found) { lister.add(found); });
 }
@@ -236,12 +253,14 @@ void Field::list(const view::Camera& camera, FieldList& list) const {
 void Field::list(const view::Camera& camera, FieldList& list, FieldScratch& scratch) const {
     constexpr size_t kAtOnce = 32;
     list.clear(), scratch.found.clear();
+    list.horizon = scratch.horizon = horizon(camera, scratch.horizon);
     FieldWalk(*this, camera).run(list.counts, [&](const Found& found) { scratch.found.push_back(found); });
     size_t parts = (scratch.found.size() + kAtOnce - 1) / kAtOnce;
     if (scratch.parts.size() < parts) scratch.parts.resize(parts);
     parallel_ranges(scratch.found.size(), kAtOnce, [&](size_t begin, size_t end) {
         FieldList& part = scratch.parts[begin / kAtOnce];
         part.clear();
+        part.horizon = list.horizon;
         FieldLister lister(*this, camera, part);
         for (size_t f = begin; f < end; ++f) lister.add(scratch.found[f]);
     });

@@ -118,6 +118,19 @@ double Ground::height_m(const glm::dvec2& at_m) const {
     return terrain_ ? height_at(grid_of(at_m)) : plain_height_m_;
 }
 
+double Ground::lowest_m(const glm::dvec2& p, const glm::dvec2& q, Asked& asked) const {
+    if (!terrain_) return plain_height_m_;
+    glm::dvec2 first = grid_of(p), last = grid_of(q);
+    double lowest_m = height_at(first, asked);
+    auto take = [&](const glm::dvec2& grid) {
+        double height = height_at(grid, asked);
+        if (!(height >= lowest_m)) lowest_m = std::isnan(lowest_m) ? lowest_m : height;
+    };
+    visit_crossings(first, last, take);
+    take(last);
+    return lowest_m;
+}
+
 // Of a rectangle that reaches into the extent.
 Ground::Touched Ground::touched_by(const Rect& rect) const {
     glm::dvec2 first = grid_of({rect.low_m.x, rect.high_m.y}), last = grid_of({rect.high_m.x, rect.low_m.y});

@@ -84,6 +84,10 @@ class Ground {
         return terrain_ ? height_at(grid_of(at_m), asked) : plain_height_m_;
     }
 
+    // The lowest of the way from p to q, both inside the extent; not a number where some of it has no ground. O(cells passed).
+    double lowest_m(const glm::dvec2& p, const glm::dvec2& q, Asked& asked) const;
+    bool is_plain() const { return terrain_ == nullptr; }
+
     // Exactly the lowest and the highest, and the steepest of the triangles of all cells that it touches. Empty and not whole if
     // it is not inside the extent or touches a void. O(cells touched).
     GroundRange range(const Rect& rect) const;

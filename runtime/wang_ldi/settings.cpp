@@ -20,7 +20,7 @@ constexpr SettingKind kPipelined{"pipelined", 0, 1, 0, true, true, true};
 constexpr SettingKind kSlopeSplats{"slope-splats", 0, 1, 1, true, true, true}, kFar{"far", 0, 1, 1, true, true, true},
     kDepth{"depth", 0, 1, 1, true, true, true}, kCuts{"cuts", 0, 1, 1, true, true, true};
 constexpr SettingKind kRings{"rings", 0, 1, 0, true, true, true};
-constexpr std::array<SettingKind, 18> kOwn = {kErrorPx,
+constexpr std::array<SettingKind, 19> kOwn = {kErrorPx,
                                               kRadiusM,
                                               SettingKind{"fade", 0, 0.5, kDefaults.fade, false, true},
                                               SettingKind{"direction-fade", 0, 0.5, kDefaults.direction_fade, false, true},
@@ -36,6 +36,7 @@ constexpr std::array<SettingKind, 18> kOwn = {kErrorPx,
                                               kFar,
                                               kDepth,
                                               kCuts,
+                                              SettingKind{"ground-hides", 0, 1, 1, true, true, true},
                                               kPipelined,
                                               kRings};
 constexpr std::array<SettingKind, 4> kPaper = {kErrorPx, kRadiusM, kPipelined, kRings};
@@ -86,6 +87,8 @@ void set(FrameOptions& options, std::string_view name, double value) {
         options.is_by_depth = value != 0;
     } else if (name == "cuts") {
         options.cuts_tiles = value != 0;
+    } else if (name == "ground-hides") {
+        options.ground_hides = value != 0;
     } else if (name == "pipelined") {
         options.is_pipelined = value != 0;
     } else {
@@ -132,6 +135,7 @@ FieldOptions field_options_of(const ImageSet& images, const FrameOptions& option
         ladder.texture_from_m = std::max(images.cell.farthest_m / std::max(1.0, options.error_px), ladder.texel_from_m);
         ladder.samples_from = samples_from(camera, options.error_px * (1 - kOfGround), options.fade);
         made.widens_splats = options.widens_splats;
+        if (options.ground_hides) made.ground_error_px = options.error_px;
         if (!options.has_far) ladder.radius_m = ladder.texture_from_m;
         if (!options.cuts_tiles) made.displacement_px = INFINITY, made.most_pieces_log2 = 0, made.chooses_diagonals = false;
     }

@@ -35,7 +35,7 @@ class ListMaker {
           highest_step_m_(highest_step_m(*field.parts().images)),
           made_(made),
           brush_(made.points) {
-        if (far != nullptr) far_.emplace(eye_, bounds_, field, *far, brush_);
+        if (far != nullptr) far_.emplace(eye_, bounds_, field, list, *far, brush_);
     }
 
     void add(const Item& item) {

@@ -26,7 +26,7 @@ class FieldWarper {
           image_at_(image_at),
           highest_step_m_(highest_step_m(*field.parts().images)),
           brush_(eye_, PictureTarget<hiding>(picture), counts_) {
-        if (far != nullptr) far_.emplace(eye_, bounds_, field, *far, brush_);
+        if (far != nullptr) far_.emplace(eye_, bounds_, field, list, *far, brush_);
     }
 
     void draw(const Item& item) {

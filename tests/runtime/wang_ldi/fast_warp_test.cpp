@@ -14,7 +14,8 @@ struct FastField : DrawnField {
     std::vector<PreparedLdi> prepared;
     FarImages far;
 
-    explicit FastField(Ground ground_, bool has_splats = false) : DrawnField(std::move(ground_)) {
+    explicit FastField(Ground ground_, bool has_splats = false, const PlacementOptions& planting = {})
+        : DrawnField(std::move(ground_), planting) {
         images.has_splats = has_splats;
         for (Ldi& ldi : ldis) {
             if (has_splats)
@@ -69,6 +70,51 @@ TEST(FastWarp, ShowsWhatTheExactWarperShows) {
                 }
         }
     EXPECT_GT(samples, pixels);
+}
+
+// Whether the line of sight through a pixel's middle meets the ground before it is so deep.
+bool is_behind_ground(const Ground& ground, const view::Camera& camera, size_t pixel, float depth_m) {
+    view::Axes axes = view::axes_of(camera);
+    double x = double(pixel % camera.width_px) + 0.5 - camera.width_px / 2.0,
+           y = camera.height_px / 2.0 - double(pixel / camera.width_px) - 0.5;
+    glm::dvec3 line = axes.forward + (x * axes.right + y * axes.up) / view::focal_px(camera);
+    for (double depth = 0.25; depth < double(depth_m); depth += 0.25) {
+        glm::dvec3 at = camera.position_m + depth * line;
+        if (ground.height_m(glm::dvec2(at)) > at.z) return true;
+    }
+    return false;
+}
+
+// Where the ground is drawn too, what it hides shows nowhere, listed or not.
+TEST(FastWarp, WhatTheGroundHidesIsBehindIt) {
+    PlacementOptions low;  // so that what stands before a valley does not hide what is in it
+    low.highest_m = 120;
+    FastField test(Ground(hills()), false, low);
+    FieldOptions options = test.far_options();
+    Field all = test.field(options);
+    options.ground_error_px = 1;
+    Field seen = test.field(options);
+    FastWarp fast;
+    size_t hidden_px = 0, fewer = 0;
+    for (view::Camera camera : cameras(test.ground))
+        for (double heading : {0.0, 120.0, 240.0}) {
+            camera.heading_deg += heading;
+            Warped whole, picture, exact = empty_picture(camera);
+            FieldList list = list_of(seen, camera);
+            uint64_t samples =
+                fast.warp(camera, all, list_of(all, camera), test.at_hand(), {Hiding::by_depth, false}, whole, &test.far).samples;
+            fewer += samples - fast.warp(camera, seen, list, test.at_hand(), {Hiding::by_depth, false}, picture, &test.far).samples;
+            warp_field(camera, seen, list, test.all(), Hiding::by_depth, exact, &test.far);
+            EXPECT_LE(differing(exact, picture), exact.colours.size() / 100000);
+            for (size_t p = 0; p < whole.colours.size(); ++p) {
+                if (whole.colours[p] == picture.colours[p] && whole.depth_m[p] == picture.depth_m[p]) continue;
+                ++hidden_px;
+                ASSERT_GE(picture.depth_m[p], whole.depth_m[p]);
+                ASSERT_TRUE(is_behind_ground(test.ground, camera, p, whole.depth_m[p])) << p << " at " << whole.depth_m[p];
+            }
+        }
+    EXPECT_GT(hidden_px, 2000u);
+    EXPECT_GT(fewer, 20000u);
 }
 
 // Before the eye plants have splats of more than 64 pixels of a finer picture.

@@ -74,6 +74,35 @@ TEST(Ground, RangeIsTheLeastThatHoldsEveryPlace) {
     }
 }
 
+TEST(Ground, LowestOfAWayIsTheLeastOfItsPlaces) {
+    Ground ground(rough_hills());
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Ground::Asked asked;
+    for (int i = 0; i < 400; ++i) {
+        auto anywhere = [&] { return glm::dvec2(1200 * unit(random), -1068 * unit(random)); };
+        glm::dvec2 p = anywhere(), way = (anywhere() - p) * (i % 2 ? 0.02 : 1.0);
+        double lowest = INFINITY, last = NAN, steepest = 0;
+        for (int n = 0; n <= 4000; ++n) {
+            double height = ground.height_m(p + way * (n / 4000.0));
+            lowest = std::min(lowest, height);
+            if (n > 0) steepest = std::max(steepest, std::abs(height - last));
+            last = height;
+        }
+        double found = ground.lowest_m(p, p + way, asked);
+        EXPECT_LE(found, lowest + 1e-9);
+        EXPECT_GE(found, lowest - 2 * steepest - 1e-9);
+    }
+    terrain::Terrain torn = terrain_of(21, 21, 10, 10, [](uint32_t column, uint32_t row) {
+        return column == 10 && row == 10 ? double(NAN) : 200.0;
+    });
+    Ground with_void(torn);
+    Ground::Asked of_void;
+    EXPECT_TRUE(std::isnan(with_void.lowest_m({10, -98}, {190, -97}, of_void)));
+    EXPECT_TRUE(std::isnan(with_void.lowest_m({190, -97}, {10, -98}, of_void)));
+    EXPECT_EQ(with_void.lowest_m({10, -58}, {190, -57}, of_void), 200);
+}
+
 TEST(Ground, OfASlantingPlaneTheSteepestIsItsRise) {
     terrain::Terrain plane =
         terrain_of(30, 30, 10, 20, [](uint32_t column, uint32_t row) { return 200 + 3.0 * column - 8.0 * row; });

@@ -27,6 +27,7 @@ constexpr Remedy kRemedies[] = {{"holes filled", "fill=0"},
                                 {"textures and colours to the horizon", "far=0"},
                                 {"hidden by depth, not by order", "depth=0"},
                                 {"tiles in pieces, better diagonals", "cuts=0"},
+                                {"what the ground hides left out", "ground-hides=0"},
                                 {"near tiles as geometry", "geometry=0"},
                                 {"levels of near plants fade", "plant-fade=0"}};
 
