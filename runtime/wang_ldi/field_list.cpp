@@ -44,10 +44,11 @@ class FieldLister {
         GroundRange range = placement_.ground().range(rect);
         double above_m = eye_m_.z - placement_.ground().height_m((rect.low_m + rect.high_m) / 2.0);
         item.context = images_.context_count == 2 && placement_.is_at_edge(i, j);
-        FieldCounts before = list_.counts;
+        size_t shown_before = list_.shown.size(), halves_before = list_.halves.size();
+        FieldCounts counts_before = list_.counts;
         if (!show(item, rect, range, above_m)) return;
         if (is_hidden(item, rect, range)) {
-            list_.shown.resize(item.first_shown), list_.halves.resize(item.first_half), list_.counts = before;
+            list_.shown.resize(shown_before), list_.halves.resize(halves_before), list_.counts = counts_before;
             ++list_.counts.hidden;
             return;
         }
