@@ -6,12 +6,15 @@
 namespace overlook::view {
 namespace {
 
-constexpr double kRestFrom = 0.95, kAimFrom = 0.96, kAim = 0.975, kAimTo = 0.99;  // shares of the budget
+constexpr double kAim = 0.975, kAimTo = 0.99;  // shares of the budget, as the class's
 constexpr double kMostError_px = 256;
 constexpr double kLess = 0.002, kNarrow = 0.0005;  // of the error's logarithm: a step down, and what a search leaves open
 constexpr double kLeastStep = 0.01, kMostStep = 1;
 constexpr double kFromEnds = 0.05;  // of a bracket, that its next place keeps from both ends
 constexpr int kMostCounts = 22;
+// Where the cost goes up by so little as the error grows, of the budget, it may have been within it before: so many steps are tried.
+constexpr double kBump = 1.05, kBumpStep = 0.006;
+constexpr int kBumpSteps = 14;
 
 }  // namespace
 
@@ -31,12 +34,13 @@ class CountedError::Search {
         if (is_at_end || (is_under && here.cost >= kRestFrom * most_)) return answer(here);
         if (is_under) {
             Sample finer = at(std::max(least_, here.log_error - kLess));
-            if (finer.cost > most_) return answer(here);
+            if (finer.cost > most_) return answer(before_bump(here, finer));
             if (is_aim(finer) || finer.log_error == least_) return answer(finer);
             here = finer;
         }
         Bracket found = bracket(here);
-        return answer(narrowed(found));
+        Sample best = narrowed(found);
+        return answer(best.cost < kRestFrom * most_ ? before_bump(best, found.over) : best);
     }
     int count_count() const { return count_count_; }
 
@@ -70,7 +74,8 @@ class CountedError::Search {
         }
     }
 
-    Sample narrowed(Bracket ends) {
+    // Leaves in `ends` what lies closest about it.
+    Sample narrowed(Bracket& ends) {
         bool is_middle = false;
         while (ends.under.log_error - ends.over.log_error > kNarrow && count_count_ < kMostCounts) {
             double wide = ends.under.log_error - ends.over.log_error, over = std::log(ends.over.cost / (kAim * most_)),
@@ -82,6 +87,17 @@ class CountedError::Search {
             is_middle = !is_middle;  // secants alone may come from one side for ever
         }
         return ends.over.cost <= most_ ? ends.over : ends.under;
+    }
+
+    // Where a budget is kept by too much, beside an error a little less that costs too much: a lesser one that keeps it, if any.
+    Sample before_bump(const Sample& here, const Sample& over) {
+        if (here.cost > most_ || over.cost <= most_ || over.cost > kBump * most_) return here;
+        for (int step = 1; step <= kBumpSteps && count_count_ < kMostCounts; ++step) {
+            Sample finer = at(std::max(least_, here.log_error - step * kBumpStep));
+            if (finer.cost > kBump * most_) break;
+            if (finer.cost <= most_ && finer.cost >= kRestFrom * most_) return finer;
+        }
+        return here;
     }
 
     double most_, least_, greatest_, least_error_px_;

@@ -11,16 +11,21 @@ namespace overlook::view {
 
 class CountedError {
   public:
+    // Shares of a budget: what costs more than the first need not cost more still; what is looked for costs more than the second.
+    static constexpr double kRestFrom = 0.95, kAimFrom = 0.96;
+
     // Of a frame, from now on, in any one unit; 0: any cost.
     void set_most(double most) { most_ = most; }
     double most() const { return most_; }
 
     // What to ask of the next frame: least_error_px > 0, or the error above it, up to 256 px, at which it costs 96 to 99 % of the
-    // budget; where cost jumps over that, the next error that costs no more than all of it. Rests while the last answer costs
+    // budget; where cost jumps over that, the next error that costs no more than all of it, or one up to 8 % below where it costs
+    // 95 % at least and no more than 105 between. Rests while the last answer costs
     // between 95 and 100 %. If the greatest error costs more, that.
     // count: what the frame costs at an error, falling with it but for small ups; it is last asked for what is returned.
     double error_px(double least_error_px, const std::function<double(double error_px)>& count);
-    // How often the last of these counted: 1 at rest or without a budget or if that cannot be kept, 3 at rest beside a jump; of
+    // How often the last of these counted: 1 at rest or without a budget or if that cannot be kept, 3 at rest beside a jump (17
+    // beside one to less than 105 %); of
     // errors from 0.001 px on 23 at most: two where it begins, steps that grow by half from 0.01 of the logarithm on, 16 of which
     // are more than all there is to 256 px, halvings up to 22 together, and the answer once more.
     int count_count() const { return count_count_; }

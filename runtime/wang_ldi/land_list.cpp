@@ -1,5 +1,10 @@
 #include "runtime/wang_ldi/land_list.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/view/counted_error.h"
+
 namespace overlook::wang_ldi {
 
 uint64_t LandList::triangle_count() const {
@@ -16,12 +21,35 @@ Result<void> LandLister::list(const view::Camera& camera, const glm::dvec3& orig
         Field::of(planted_.parts(), field_options_of(planted_.images().set(), possible, camera, texture_side_px));
     if (!field) return tl::unexpected(field.error());
     out.field.emplace(std::move(*field));
-    view::Camera on_terrain = camera;
-    on_terrain.position_m -= origin_m;
-    refiner_.cut_by_pixels(on_terrain, options.error_px, out.cut, morph);
+    cut_ground(camera, origin_m, options.error_px, morph, out);
     out.field->list(camera, out.list, out.scratch);
     list_plants(camera, {options.error_px, options.plant_fade}, out);
     return {};
+}
+
+void LandLister::cut_ground(const view::Camera& camera, const glm::dvec3& origin_m, double error_px, double morph,
+                            LandList& out) const {
+    view::Camera on_terrain = camera;
+    on_terrain.position_m -= origin_m;
+    refiner_.cut_by_pixels(on_terrain, error_px, out.cut, morph);
+}
+
+void LandLister::fill_with_ground(const view::Camera& camera, const glm::dvec3& origin_m, double finest_px, double error_px,
+                                  double budget, double morph, LandList& out) const {
+    constexpr int kHalvings = 8;
+    double least = view::CountedError::kRestFrom * budget;
+    if (!(budget > 0 && finest_px < error_px) || double(out.triangle_count()) >= least) return;
+    auto count_at = [&](double px) {
+        cut_ground(camera, origin_m, px, morph, out);
+        return double(out.triangle_count());
+    };
+    double finest = count_at(finest_px), wanted = std::min(finest, view::CountedError::kAimFrom * budget);
+    double fine_px = finest_px, coarse_px = error_px;
+    for (int n = 0; finest >= least && n < kHalvings; ++n) {
+        double middle_px = std::sqrt(fine_px * coarse_px);
+        (count_at(middle_px) >= wanted ? fine_px : coarse_px) = middle_px;
+    }
+    if (finest < least || count_at(fine_px) > budget) cut_ground(camera, origin_m, error_px, morph, out);
 }
 
 void LandLister::list_plants(const view::Camera& camera, const PlantAccuracy& accuracy, LandList& out) const {

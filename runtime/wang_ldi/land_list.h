@@ -36,8 +36,14 @@ class LandLister {
     // O(terrain's triangles + tiles to where textures begin + plants as geometry).
     Result<void> list(const view::Camera& camera, const glm::dvec3& origin_m, const FrameOptions& options,
                       uint32_t texture_side_px, double morph, LandList& out) const;
+    // Where a budget of triangles leaves more over than view::CountedError rests at, since many come and go at once: its terrain
+    // alone anew, within as much of an error between finest_px and error_px, at which it was listed, as takes up enough of that; as
+    // it was if none does. O(terrain's triangles).
+    void fill_with_ground(const view::Camera& camera, const glm::dvec3& origin_m, double finest_px, double error_px, double budget,
+                          double morph, LandList& out) const;
 
   private:
+    void cut_ground(const view::Camera& camera, const glm::dvec3& origin_m, double error_px, double morph, LandList& out) const;
     void list_plants(const view::Camera& camera, const PlantAccuracy& accuracy, LandList& out) const;
 
     const PlantedField& planted_;

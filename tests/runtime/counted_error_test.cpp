@@ -99,6 +99,31 @@ TEST(CountedError, StandsBesideAJumpWithoutSearchingAgain) {
     EXPECT_NEAR(moved.error_px, 5, 0.01);
 }
 
+// A level that gives way to another costs more before it costs less: beyond that bump there is room again.
+TEST(CountedError, LooksBeyondABumpForWhatKeepsItCloser) {
+    Cost cost = [](double e) { return e < 7 ? 6700 / e : e < 7.4 ? 1010.0 : e < 7.5 ? 1040.0 : 900.0; };
+    CountedError fitting;
+    fitting.set_most(1005);
+    for (double from_px : {1.0, 7.6, 20.0}) {
+        frame_of(fitting, from_px, [](double) { return 980.0; });  // rests there
+        EXPECT_LE(frame_of(fitting, 1, cost).cost, 1005) << from_px;
+        Frame frame = frame_of(fitting, 1, cost);
+        EXPECT_LE(frame.cost, 1005) << from_px;
+        EXPECT_GE(frame.cost, 0.95 * 1005) << from_px;
+    }
+    // None where the bump is wider, or too high to go on.
+    for (double high : {1010.0, 1200.0}) {
+        Cost wide = [&](double e) { return e < 5 ? 5000 / e : e < 7.5 ? high : 900.0; };
+        CountedError other;
+        other.set_most(1005);
+        frame_of(other, 7.6, [](double) { return 980.0; });
+        Frame frame = frame_of(other, 1, wide);
+        EXPECT_EQ(frame.cost, 900) << high;
+        EXPECT_LE(frame.counts, 24);
+        EXPECT_LE(frame_of(other, 1, wide).counts, high > 1100 ? 3 : 17);
+    }
+}
+
 TEST(CountedError, ThatCannotKeepItAsksForTheGreatestErrorAndCountsOnce) {
     Cost cost = [](double e) { return 1e6 / e + 5000; };
     CountedError fitting;

@@ -22,7 +22,9 @@ struct Stand {
     std::vector<TraceStage> stages;
     ImageSet set = plants::image_set();
 
-    explicit Stand(const rays::Mesh& mesh) {
+    // directions: 1: all sides in one image.
+    explicit Stand(const rays::Mesh& mesh, uint32_t directions = 4) {
+        set.direction_count = directions;
         models.meshes = {mesh}, models.skins = {plants::skin_of({0.5f, 0.5f, 0.5f})};
         set.high_m = 1.01, set.has_normals = true;  // so that its colour is its own
         auto stage = stage_of(models, {{0, glm::mat4x3(1)}}, uint64_t(1) << 30);
@@ -53,8 +55,10 @@ rays::Mesh blades() {
     return mesh;
 }
 
-TEST(Covering, DrawsBladesAboutAsWideAsTheyAre) {
-    Stand stand(blades());
+class CoveringOf : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(CoveringOf, DrawsBladesAboutAsWideAsTheyAre) {
+    Stand stand(blades(), GetParam());
     for (uint32_t level : {0u, 1u}) {
         Sampled all = stand.all(level), kept = stand.kept(level, all);
         Judgement by_all = stand.judgement(level, all), by_kept = stand.judgement(level, kept);
@@ -67,10 +71,10 @@ TEST(Covering, DrawsBladesAboutAsWideAsTheyAre) {
     }
 }
 
-TEST(Covering, KeepsAllOfAWallButItsRim) {
+TEST_P(CoveringOf, KeepsAllOfAWallButItsRim) {
     rays::Mesh wall;
     add_board(wall, {0.5f, 2.01f, 0}, {3, 0, 0}, 1);
-    Stand stand(wall);
+    Stand stand(wall, GetParam());
     Sampled all = stand.all(0), kept = stand.kept(0, all);
     double pixel_m = stand.set.tile_m / stand.set.levels[0].side_px;
     auto inside = [&](const Sampled& of) {
@@ -86,6 +90,8 @@ TEST(Covering, KeepsAllOfAWallButItsRim) {
     EXPECT_NEAR(double(by_kept.holes_left), double(by_all.holes_left), 0.001 * double(by_all.pixels));
     EXPECT_NEAR(by_kept.covered_times(), by_all.covered_times(), 0.02);
 }
+
+INSTANTIATE_TEST_SUITE_P(Directions, CoveringOf, testing::Values(1, 4));
 
 TEST(Covering, KeepsTheSameSamplesOfThoseThereAre) {
     Stand stand(blades());

@@ -11,7 +11,7 @@ namespace overlook::wang_ldi {
 namespace {
 
 // Raised whenever what a part holds, or how it is made, changes.
-constexpr uint64_t kPartsVersion = 2;
+constexpr uint64_t kPartsVersion = 3;
 
 // A hash of values and rows of them, as they lie in memory: for a key that never leaves this machine.
 class Key {

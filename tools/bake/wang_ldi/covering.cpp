@@ -9,13 +9,15 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr uint64_t kPlaceStream = 51, kKeepStream = 52;
+constexpr uint64_t kPlaceStream = 51, kKeepStream = 52, kEyeStream = 53;
 constexpr uint32_t kSide = 5, kPlaces = kSide * kSide, kOwnPlaces = 9;  // of a window; of its middle
 constexpr double kWide_px = 3, kDeep_px = 2;                            // of a window; from a sample to both sides
 constexpr uint32_t kMostOverEachOther = 31;                             // more count as so many
 // A sample is kept in any case where so many of its own places are met; or fewer, but so many of the whole window.
 constexpr uint8_t kOwnMet = 4, kOwnMetAmongMany = 2, kManyMet = 6;
-constexpr double kWidestWedge_rad = M_PI / 3;  // to both sides: what its middle eye sees of a thing tells of what others do
+// To both sides: what the middle eye of so wide a wedge sees of a thing tells of what others do. Into a wider one so many look.
+constexpr double kWidestWedge_rad = M_PI / 3;
+constexpr uint32_t kEyesOfWide = 16;
 constexpr size_t kAtOnce = 256;                // samples whose rays are shot together
 
 // Places of a window, in pixels across the line of sight; those of its middle first.
@@ -51,8 +53,13 @@ class Coverer {
           samples_(samples),
           seed_(seed),
           shift_(hash_of(seed, kKeepStream, 0, 0)),
-          eye_m_(middle_eye_m(wedge)),
           pixel_m_(wedge.tile_m / wedge.side_px) {
+        Wedge part = wedge;
+        uint32_t eyes = wedge.half_width_rad > kWidestWedge_rad ? kEyesOfWide : 1;
+        for (uint32_t eye = 0; eye < eyes; ++eye) {
+            part.heading_rad = wedge.heading_rad + ((2 * eye + 1.0) / eyes - 1) * wedge.half_width_rad;
+            eyes_m_.push_back(middle_eye_m(part));
+        }
         first_.resize(size_t(wedge.side_px) * wedge.side_px + 1);
         for (const Sample& sample : samples) ++first_[sample.pixel + 1];
         for (size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
@@ -73,10 +80,24 @@ class Coverer {
         return {(sample.pixel % wedge_.side_px + 0.5) * pixel_m_, (sample.pixel / wedge_.side_px + 0.5) * pixel_m_,
                 wedge_.low_m + double(sample.height_m)};
     }
-    Sight sight_of(const Sample& sample) const {
+    // The one that it faces most: a leaf of which an eye sees the edge alone is whole for others.
+    const glm::dvec3& facing_eye_m(const Sample& sample) const {
+        glm::dvec3 normal(sample.normal), at_m = place_m(sample);
+        auto facing = [&](const glm::dvec3& eye_m) {
+            glm::dvec3 way = eye_m - at_m;
+            return std::abs(glm::dot(way, normal)) / std::sqrt(glm::dot(way, way));
+        };
+        return *std::max_element(eyes_m_.begin(), eyes_m_.end(),
+                                 [&](const glm::dvec3& a, const glm::dvec3& b) { return facing(a) < facing(b); });
+    }
+    // Any, so that many samples are looked at from all sides.
+    const glm::dvec3& any_eye_m(const Sample& sample) const {
+        return eyes_m_[hash_of(seed_, kEyeStream, sample.pixel, sample.layer) % eyes_m_.size()];
+    }
+    Sight sight_of(const Sample& sample, const glm::dvec3& eye_m) const {
         Sight sight;
         sight.at_m = place_m(sample);
-        glm::dvec3 way = sight.at_m - eye_m_;
+        glm::dvec3 way = sight.at_m - eye_m;
         double distance_m = std::sqrt(glm::dot(way, way)), wide_px = focal_px_ * pixel_m_ / distance_m;
         sight.along = way / distance_m, sight.splat_px = std::max(1.0, std::floor(wide_px + 0.5)) / wide_px;
         glm::dvec3 level(sight.along.y, -sight.along.x, 0);
@@ -88,28 +109,32 @@ class Coverer {
 
     // Counts what rays meet in the windows of samples from..to.
     void look(size_t from, size_t to) {
-        shoot(from, to, 0, kOwnPlaces);
+        shoot(from, to, 0, kOwnPlaces, true);
         std::array<uint8_t, kAtOnce> own{};
         for (size_t s = from; s < to; ++s) {
             own[s - from] = met_[s];
             if (met_[s] >= kOwnMet) met_[s] = kPlaces;
         }
-        shoot(from, to, kOwnPlaces, kPlaces);
+        bool is_seen_by_one = eyes_m_.size() == 1;
+        for (size_t s = from; s < to; ++s)
+            if (!is_seen_by_one && !is_solid(s)) met_[s] = 0;
+        shoot(from, to, is_seen_by_one ? kOwnPlaces : 0, kPlaces, false);
         for (size_t s = from; s < to; ++s)
             if (own[s - from] >= kOwnMetAmongMany && met_[s] >= kManyMet) met_[s] = kPlaces;
     }
-    void shoot(size_t from, size_t to, size_t first_place, size_t last_place) {
+    void shoot(size_t from, size_t to, size_t first_place, size_t last_place, bool is_facing) {
         for (uint32_t stage = 0; stage < stages_.size(); ++stage) {
             rays_.clear(), of_.clear();
             for (size_t s = from; s < to; ++s)
-                if (samples_[s].stage == stage && !is_solid(s)) add_rays(s, first_place, last_place);
+                if (samples_[s].stage == stage && !is_solid(s))
+                    add_rays(s, first_place, last_place, is_facing ? facing_eye_m(samples_[s]) : any_eye_m(samples_[s]));
             hits_.resize(rays_.size());
             stages_[stage].scene.first_hits(rays_, hits_);
             for (size_t r = 0; r < rays_.size(); ++r) met_[of_[r]] += is_in_tile(rays_[r], hits_[r]);
         }
     }
-    void add_rays(size_t s, size_t first_place, size_t last_place) {
-        Sight sight = sight_of(samples_[s]);
+    void add_rays(size_t s, size_t first_place, size_t last_place, const glm::dvec3& eye_m) {
+        Sight sight = sight_of(samples_[s], eye_m);
         Places places(seed_, samples_[s]);
         for (size_t place = first_place; place < last_place; ++place) {
             glm::dvec3 aside = places.right[place] * sight.right + places.up[place] * sight.up - kDeep_px * sight.along;
@@ -125,7 +150,7 @@ class Coverer {
     }
 
     double share_of(size_t s) const {
-        Sight sight = sight_of(samples_[s]);
+        Sight sight = sight_of(samples_[s], any_eye_m(samples_[s]));
         Places places(seed_, samples_[s]);
         std::array<uint32_t, kPlaces> covered{};
         std::array<bool, kPlaces> is_covered{};
@@ -176,7 +201,7 @@ class Coverer {
     double focal_px_;
     const std::vector<Sample>& samples_;
     uint64_t seed_, shift_;
-    glm::dvec3 eye_m_;
+    std::vector<glm::dvec3> eyes_m_;
     double pixel_m_;
     std::vector<uint32_t> first_;  // [side_px^2 + 1], of each pixel's
     std::vector<uint8_t> met_;
@@ -207,7 +232,6 @@ double share_covering(double wanted, std::span<const uint32_t> covered_by, uint3
 }
 
 Sampled covering(std::span<const TraceStage> stages, const Wedge& wedge, double focal_px, Sampled all, uint64_t seed) {
-    if (wedge.half_width_rad > kWidestWedge_rad) return all;
     all.samples = Coverer(stages, wedge, focal_px, all.samples, seed).kept();
     return all;
 }
