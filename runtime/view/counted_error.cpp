@@ -118,4 +118,17 @@ double CountedError::error_px(double least_error_px, const std::function<double(
     return error_px_;
 }
 
+double CountedError::filled_px(double finest_px, double error_px, double cost, const std::function<double(double)>& count) const {
+    constexpr int kHalvings = 8;
+    if (!(most_ > 0 && finest_px < error_px) || cost >= kRestFrom * most_) return error_px;
+    double finest = count(finest_px), wanted = std::min(finest, kAimFrom * most_), fine_px = finest_px, coarse_px = error_px;
+    for (int n = 0; finest >= kRestFrom * most_ && n < kHalvings; ++n) {
+        double middle_px = std::sqrt(fine_px * coarse_px);
+        (count(middle_px) >= wanted ? fine_px : coarse_px) = middle_px;
+    }
+    if (finest >= kRestFrom * most_ && count(fine_px) <= most_) return fine_px;
+    count(error_px);
+    return error_px;
+}
+
 }  // namespace overlook::view

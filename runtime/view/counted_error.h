@@ -30,6 +30,12 @@ class CountedError {
     // are more than all there is to 256 px, halvings up to 22 together, and the answer once more.
     int count_count() const { return count_count_; }
 
+    // Where many things of a frame come and go at once, so that it leaves more of the budget than kRestFrom over: at which error
+    // between finest_px and error_px, at which it was counted, another part of it takes that up; error_px if at none, or if it
+    // need not. As great as reaches kAimFrom, or the finest if that reaches kRestFrom at least. count: what all of it costs with
+    // that part at an error, falling with it; it is last asked for what is returned, if at all.
+    double filled_px(double finest_px, double error_px, double cost, const std::function<double(double error_px)>& count) const;
+
   private:
     struct Sample {
         double log_error = 0, cost = 0;

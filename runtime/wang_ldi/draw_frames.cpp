@@ -160,8 +160,8 @@ Result<void> FrameDrawer::list(Slot& slot, double morph) {
         return double(slot.triangle_count());
     });
     if (listed)
-        lister.fill_with_ground(slot.camera, slot.origin_m, options_.error_px, slot.counts.asked_error_px, fitting_error_.most(),
-                                morph, slot);
+        lister.fill_with_ground(slot.camera, slot.origin_m, options_.error_px, slot.counts.asked_error_px, fitting_error_, morph,
+                                slot);
     slot.counts.times_listed = fitting_error_.count_count(), slot.counts.field = slot.list.counts;
     return listed;
 }

@@ -1,10 +1,5 @@
 #include "runtime/wang_ldi/land_list.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "runtime/view/counted_error.h"
-
 namespace overlook::wang_ldi {
 
 uint64_t LandList::triangle_count() const {
@@ -35,21 +30,11 @@ void LandLister::cut_ground(const view::Camera& camera, const glm::dvec3& origin
 }
 
 void LandLister::fill_with_ground(const view::Camera& camera, const glm::dvec3& origin_m, double finest_px, double error_px,
-                                  double budget, double morph, LandList& out) const {
-    constexpr int kHalvings = 8;
-    double least = view::CountedError::kRestFrom * budget;
-    if (!(budget > 0 && finest_px < error_px) || double(out.triangle_count()) >= least) return;
-    auto count_at = [&](double px) {
+                                  const view::CountedError& budget, double morph, LandList& out) const {
+    budget.filled_px(finest_px, error_px, double(out.triangle_count()), [&](double px) {
         cut_ground(camera, origin_m, px, morph, out);
         return double(out.triangle_count());
-    };
-    double finest = count_at(finest_px), wanted = std::min(finest, view::CountedError::kAimFrom * budget);
-    double fine_px = finest_px, coarse_px = error_px;
-    for (int n = 0; finest >= least && n < kHalvings; ++n) {
-        double middle_px = std::sqrt(fine_px * coarse_px);
-        (count_at(middle_px) >= wanted ? fine_px : coarse_px) = middle_px;
-    }
-    if (finest < least || count_at(fine_px) > budget) cut_ground(camera, origin_m, error_px, morph, out);
+    });
 }
 
 void LandLister::list_plants(const view::Camera& camera, const PlantAccuracy& accuracy, LandList& out) const {

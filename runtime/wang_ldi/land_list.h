@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/terrain/refine.h"
+#include "runtime/view/counted_error.h"
 #include "runtime/wang_ldi/plant_levels.h"
 #include "runtime/wang_ldi/planted_field.h"
 #include "runtime/wang_ldi/settings.h"
@@ -36,11 +37,10 @@ class LandLister {
     // O(terrain's triangles + tiles to where textures begin + plants as geometry).
     Result<void> list(const view::Camera& camera, const glm::dvec3& origin_m, const FrameOptions& options,
                       uint32_t texture_side_px, double morph, LandList& out) const;
-    // Where a budget of triangles leaves more over than view::CountedError rests at, since many come and go at once: its terrain
-    // alone anew, within as much of an error between finest_px and error_px, at which it was listed, as takes up enough of that; as
-    // it was if none does. O(terrain's triangles).
-    void fill_with_ground(const view::Camera& camera, const glm::dvec3& origin_m, double finest_px, double error_px, double budget,
-                          double morph, LandList& out) const;
+    // Its terrain alone anew, as the budget's filled_px says, from finest_px on. error_px: at which it was listed. O(terrain's
+    // triangles).
+    void fill_with_ground(const view::Camera& camera, const glm::dvec3& origin_m, double finest_px, double error_px,
+                          const view::CountedError& budget, double morph, LandList& out) const;
 
   private:
     void cut_ground(const view::Camera& camera, const glm::dvec3& origin_m, double error_px, double morph, LandList& out) const;

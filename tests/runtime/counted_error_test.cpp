@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace overlook::view {
@@ -122,6 +123,37 @@ TEST(CountedError, LooksBeyondABumpForWhatKeepsItCloser) {
         EXPECT_LE(frame.counts, 24);
         EXPECT_LE(frame_of(other, 1, wide).counts, high > 1100 ? 3 : 17);
     }
+}
+
+// Plants that come and go at once leave room that the ground takes up.
+TEST(CountedError, FillsWhatIsLeftOverByAnotherPart) {
+    CountedError budget;
+    auto filled = [&](double plants, double ground_at_1_px, double finest_px, double error_px) {
+        auto cost_at = [&](double px) { return plants + ground_at_1_px / px; };
+        double last_px = 0;
+        double found = budget.filled_px(finest_px, error_px, cost_at(error_px), [&](double px) {
+            EXPECT_GE(px, finest_px);
+            EXPECT_LE(px, error_px);
+            return cost_at(last_px = px);
+        });
+        if (last_px > 0) {
+            EXPECT_EQ(found, last_px) << "what was counted last is what is drawn";
+        }
+        return std::pair(found, cost_at(found));
+    };
+    EXPECT_EQ(filled(900, 100, 1, 4).first, 4);  // without a budget nothing is
+    budget.set_most(1000);
+    auto [much_px, much] = filled(900, 100, 1, 4);  // 925 to 1,000: as little as reaches 960
+    EXPECT_GE(much, 960);
+    EXPECT_LT(much, 961);
+    EXPECT_NEAR(much_px, 100.0 / 60, 0.02);
+    EXPECT_EQ(filled(853, 100, 1, 4).first, 1);  // 953 at its finest
+    EXPECT_EQ(filled(845, 100, 1, 4).first, 4);  // 945: not worth it
+    EXPECT_EQ(filled(930, 100, 1, 4).first, 4);  // 955 as it is
+    EXPECT_EQ(filled(100, 100, 1, 1).first, 1);
+    // At once from too little to too much: neither.
+    auto jump = [](double px) { return px < 2 ? 1100.0 : 900.0; };
+    EXPECT_EQ(budget.filled_px(1, 4, 900, jump), 4);
 }
 
 TEST(CountedError, ThatCannotKeepItAsksForTheGreatestErrorAndCountsOnce) {
