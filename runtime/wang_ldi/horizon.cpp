@@ -9,8 +9,8 @@
 namespace overlook::wang_ldi {
 namespace {
 
-constexpr double kNearest_m = 8, kStep = 1.02;  // from one way to the next
-constexpr double kSector_px = 5;
+constexpr double kNearest_m = 8, kStep = 1.04;  // from one way to the next
+constexpr double kSector_px = 10;
 constexpr double kLeastForward = 0.2, kWidestBearing = 4;
 constexpr size_t kWaysAtOnce = 8, kMostWays = 1200, kMostSectors = 1024;
 // Of a splat: its sides are rounded, its place is, and a pixel is taken for its middle.
