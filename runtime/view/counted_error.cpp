@@ -12,20 +12,24 @@ constexpr double kLess = 0.002, kNarrow = 0.0005;  // of the error's logarithm: 
 constexpr double kLeastStep = 0.01, kMostStep = 1;
 constexpr double kFromEnds = 0.05;  // of a bracket, that its next place keeps from both ends
 constexpr int kMostCounts = 22;
-// Where the cost goes up by so little as the error grows, of the budget, it may have been within it before: so many steps are tried.
+// Where the cost goes up by so little as the error grows, of the budget, it may have been within it before: so many steps are
+// tried.
 constexpr double kBump = 1.05, kBumpStep = 0.006;
 constexpr int kBumpSteps = 14;
+constexpr double kSameBump = 0.002;  // of the budget: beside one that costs as much none is looked for again
 
 }  // namespace
 
 // One search for one frame.
 class CountedError::Search {
   public:
-    Search(double most, double least_error_px, const std::function<double(double)>& count)
+    // bump_cost: what the last answer beside a bump cost, before which nothing was found.
+    Search(double most, double least_error_px, double bump_cost, const std::function<double(double)>& count)
         : most_(most),
           least_(std::log(least_error_px)),
           greatest_(std::max(least_, std::log(kMostError_px))),
           least_error_px_(least_error_px),
+          bump_cost_(bump_cost),
           count_(count) {}
 
     double from(double error_px) {
@@ -43,6 +47,7 @@ class CountedError::Search {
         return answer(best.cost < kRestFrom * most_ ? before_bump(best, found.over) : best);
     }
     int count_count() const { return count_count_; }
+    double bump_cost() const { return bump_cost_; }
 
   private:
     Sample at(double log_error) {
@@ -92,15 +97,19 @@ class CountedError::Search {
     // Where a budget is kept by too much, beside an error a little less that costs too much: a lesser one that keeps it, if any.
     Sample before_bump(const Sample& here, const Sample& over) {
         if (here.cost > most_ || over.cost <= most_ || over.cost > kBump * most_) return here;
-        for (int step = 1; step <= kBumpSteps && count_count_ < kMostCounts; ++step) {
+        if (std::abs(here.cost - bump_cost_) <= kSameBump * most_) return here;
+        for (int step = 1; step <= kBumpSteps; ++step) {
+            if (count_count_ >= kMostCounts) return here;
             Sample finer = at(std::max(least_, here.log_error - step * kBumpStep));
             if (finer.cost > kBump * most_) break;
             if (finer.cost <= most_ && finer.cost >= kRestFrom * most_) return finer;
+            if (finer.log_error <= least_) break;
         }
+        bump_cost_ = here.cost;
         return here;
     }
 
-    double most_, least_, greatest_, least_error_px_;
+    double most_, least_, greatest_, least_error_px_, bump_cost_;
     const std::function<double(double)>& count_;
     Sample last_;
     int count_count_ = 0;
@@ -112,8 +121,8 @@ double CountedError::error_px(double least_error_px, const std::function<double(
         count_count_ = 1;
         return error_px_ = least_error_px;
     }
-    Search search(most_, least_error_px, count);
-    error_px_ = search.from(error_px_);
+    Search search(most_, least_error_px, bump_cost_, count);
+    error_px_ = search.from(error_px_), bump_cost_ = search.bump_cost();
     count_count_ = search.count_count();
     return error_px_;
 }
@@ -122,11 +131,12 @@ double CountedError::filled_px(double finest_px, double error_px, double cost, c
     constexpr int kHalvings = 8;
     if (!(most_ > 0 && finest_px < error_px) || cost >= kRestFrom * most_) return error_px;
     double finest = count(finest_px), wanted = std::min(finest, kAimFrom * most_), fine_px = finest_px, coarse_px = error_px;
-    for (int n = 0; finest >= kRestFrom * most_ && n < kHalvings; ++n) {
+    if (finest >= kRestFrom * most_ && finest <= wanted) return finest_px;
+    for (int n = 0; finest > wanted && n < kHalvings; ++n) {
         double middle_px = std::sqrt(fine_px * coarse_px);
         (count(middle_px) >= wanted ? fine_px : coarse_px) = middle_px;
     }
-    if (finest >= kRestFrom * most_ && count(fine_px) <= most_) return fine_px;
+    if (finest > wanted && count(fine_px) <= most_) return fine_px;
     count(error_px);
     return error_px;
 }

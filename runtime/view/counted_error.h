@@ -15,7 +15,10 @@ class CountedError {
     static constexpr double kRestFrom = 0.95, kAimFrom = 0.96;
 
     // Of a frame, from now on, in any one unit; 0: any cost.
-    void set_most(double most) { most_ = most; }
+    void set_most(double most) {
+        if (most != most_) bump_cost_ = -1;
+        most_ = most;
+    }
     double most() const { return most_; }
 
     // What to ask of the next frame: least_error_px > 0, or the error above it, up to 256 px, at which it costs 96 to 99 % of the
@@ -25,7 +28,7 @@ class CountedError {
     // count: what the frame costs at an error, falling with it but for small ups; it is last asked for what is returned.
     double error_px(double least_error_px, const std::function<double(double error_px)>& count);
     // How often the last of these counted: 1 at rest or without a budget or if that cannot be kept, 3 at rest beside a jump (17
-    // beside one to less than 105 %); of
+    // at first beside one to less than 105 %); of
     // errors from 0.001 px on 23 at most: two where it begins, steps that grow by half from 0.01 of the logarithm on, 16 of which
     // are more than all there is to 256 px, halvings up to 22 together, and the answer once more.
     int count_count() const { return count_count_; }
@@ -45,7 +48,7 @@ class CountedError {
     };
     class Search;
 
-    double most_ = 0, error_px_ = 0;
+    double most_ = 0, error_px_ = 0, bump_cost_ = -1;
     int count_count_ = 0;
 };
 

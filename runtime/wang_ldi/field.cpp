@@ -35,7 +35,8 @@ Result<void> check(const FieldOptions& options) {
         return bad_command("a field's levels {} times nearer: above 0 is needed", options.ladder.coarser);
     if (!(options.displacement_px > 0)) return bad_command("a displacement of {} px: above 0 is needed", options.displacement_px);
     const LadderOptions& ladder = options.ladder;
-    if (!(options.ground_error_px >= 0)) return bad_command("a ground within {} px: 0 is needed at least", options.ground_error_px);
+    if (!(options.ground_error_px >= 0))
+        return bad_command("a ground within {} px: 0 is needed at least", options.ground_error_px);
     if (!(options.error_px > 0)) return bad_command("a field within {} px: above 0 is needed", options.error_px);
     if (!(ladder.radius_m > 0 && ladder.geometry_to_m >= 0 && ladder.texture_from_m >= 0 && ladder.texel_from_m > 0))
         return bad_command(
@@ -81,7 +82,7 @@ Result<Field> Field::of(const FieldParts& parts, const FieldOptions& options) {
     made.parts_ = parts, made.options_ = options, made.ladder_ = ladder_of(images, options.ladder);
     made.blocks_from_m_ = made.reach_m_ = made.images_to_m_ = INFINITY;
     const std::vector<Rung>& rungs = made.ladder_.rungs;
-    made.highest_m_ = images.high_m + highest_step_m(images);
+    made.highest_m_ = std::max(images.high_m + highest_step_m(images), parts.plants_high_m);
     made.has_geometry_ = rungs.front().stage == Stage::geometry;
     for (const Rung& rung : rungs) {
         if (rung.stage > Stage::ldi) made.images_to_m_ = std::min(made.images_to_m_, rung.fade_from_m);

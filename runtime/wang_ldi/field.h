@@ -30,7 +30,8 @@ struct FieldParts {
     const TileSet* set = nullptr;
     const PlaneTiling* tiling = nullptr;   // of set
     const Placement* placement = nullptr;  // of tiles of images->tile_m
-    double overhang_m = 0;  // so far what is planted reaches over its tile's edges at most; where tiles are drawn as geometry
+    // Where tiles are drawn as geometry: so far that reaches over its tile's edges, and so high above the ground, at most.
+    double overhang_m = 0, plants_high_m = 0;
 };
 
 constexpr double kDiagonal = 1.4142135623730951;  // of a square: so wide it looks at most from aside

@@ -225,9 +225,10 @@ class FieldLister {
 };
 
 void FieldCounts::add(const FieldCounts& other) {
-    for (auto of : {&FieldCounts::blocks_tested, &FieldCounts::tiles_tested, &FieldCounts::blocks_listed,
-                    &FieldCounts::tiles_listed, &FieldCounts::hidden, &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces,
-                    &FieldCounts::displaced_tiles, &FieldCounts::outside_cell, &FieldCounts::samples, &FieldCounts::texels})
+    for (auto of :
+         {&FieldCounts::blocks_tested, &FieldCounts::tiles_tested, &FieldCounts::blocks_listed, &FieldCounts::tiles_listed,
+          &FieldCounts::hidden, &FieldCounts::bare_tiles, &FieldCounts::cut_tiles, &FieldCounts::pieces,
+          &FieldCounts::displaced_tiles, &FieldCounts::outside_cell, &FieldCounts::samples, &FieldCounts::texels})
         this->*of += other.*of;
     for (size_t v = 0; v < kVerdicts; ++v) tiles_by_verdict[v] += other.tiles_by_verdict[v];
     samples_shown += other.samples_shown, displacement_px = std::max(displacement_px, other.displacement_px);

@@ -41,6 +41,7 @@ Horizon::Horizon(const Ground& ground, const view::Camera& camera)
     double least = level - half_high * std::abs(upright);
     if (ground.is_plain() || !(least > kLeastForward)) return;
     depth_most_ = 1 / least, bearing_most_ = (half_wide + 2 * kMargin_px / focal_px_) / least;
+    slant_ = 1 + bearing_most_ * std::abs(upright);
     const Rect& extent = ground.extent();
     if (!(bearing_most_ < kWidestBearing) || !extent.contains({eye_m_, eye_m_})) return;
     if (!(ground.height_m(eye_m_) < eye_high_m_)) return;
@@ -61,7 +62,7 @@ bool Horizon::is_of(const Ground& ground, const view::Camera& camera) const {
     return ground_ == &ground && is_same_view(camera_, camera);
 }
 
-// Up to where there is ground throughout, so that no line of sight passes below it unseen.
+// Up to where there is ground throughout, from the eye on, so that no line of sight passes below it unseen.
 void Horizon::look_along(const Ground& ground, size_t sector) {
     size_t ways = ways_m_.size();
     float* rises = rises_.data() + sector * ways;
@@ -71,8 +72,8 @@ void Horizon::look_along(const Ground& ground, size_t sector) {
     float rise = kNothing;
     for (size_t way = 0; way < ways;) {
         size_t last = std::min(way + kWaysAtOnce, ways) - 1;
-        glm::dvec2 corners[4] = {eye_m_ + ways_m_[way] * left, eye_m_ + ways_m_[way] * right, eye_m_ + ways_m_[last] * left,
-                                 eye_m_ + ways_m_[last] * right};
+        double from_m = way > 0 ? ways_m_[way - 1] : 0, to_m = ways_m_[last];
+        glm::dvec2 corners[4] = {eye_m_ + from_m * left, eye_m_ + from_m * right, eye_m_ + to_m * left, eye_m_ + to_m * right};
         Rect rect{corners[0], corners[0]};
         for (const glm::dvec2& corner : corners) rect = {glm::min(rect.low_m, corner), glm::max(rect.high_m, corner)};
         GroundRange range = ground.bound(rect);
@@ -90,8 +91,8 @@ void Horizon::look_along(const Ground& ground, size_t sector) {
     }
 }
 
-// A line of sight of the box's sector that rises no more than the horizon before it met the ground there. Pixels are as far apart
-// as depth_most_ says along bearings, and by their own depth along rises.
+// A line of sight of the box's sectors that rises no more than the horizon before it met the ground there. Pixels are as far
+// apart as depth_most_ and slant_ say along bearings, and by their own depth along rises.
 bool Horizon::hides(const Rect& rect, double high_m, double wide_m, double error_px) const {
     if (rises_.empty()) return false;
     double nearest_m = INFINITY, farthest_m = 0, least = INFINITY, most = -INFINITY;
@@ -104,7 +105,10 @@ bool Horizon::hides(const Rect& rect, double high_m, double wide_m, double error
             nearest_m = std::min(nearest_m, forward_m), farthest_m = std::max(farthest_m, forward_m);
             least = std::min(least, bearing), most = std::max(most, bearing);
         }
-    double aside = 2 * kMargin_px * depth_most_ / focal_px_ + wide_m / nearest_m;
+    // A splat is as deep as its middle throughout, so that with a camera that looks down its rim lies nearer along the ground.
+    nearest_m -= wide_m / 2;
+    if (!(nearest_m >= ways_m_.front())) return false;
+    double aside = slant_ * (2 * kMargin_px * depth_most_ / focal_px_ + wide_m / nearest_m);
     least -= aside, most += aside;
     if (!(most > -bearing_most_ && least < bearing_most_)) return false;
     double up_m = high_m - eye_high_m_, rise = up_m / (up_m > 0 ? nearest_m : farthest_m);

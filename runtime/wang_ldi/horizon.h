@@ -1,6 +1,6 @@
 // What of planted ground the ground itself hides from an eye.
 //
-// Based on: L. Downs, T. Möller, C. H. Séquin, Occlusion Horizons for Driving through Urban Scenery, 2001 (how high what has been
+// Based on: L. Downs, T. Moeller, C. Sequin, Occlusion Horizons for Driving through Urban Scenery, 2001 (how high what has been
 // passed on the way away from the eye rises in its picture, direction by direction). Different: kept for every distance, so that
 // what stands anywhere may be asked about in any order; of the ground's own triangles, the lowest on each line across a
 // direction, so that nothing is hidden by what is not there.
@@ -17,8 +17,8 @@ class Horizon {
   public:
     Horizon() = default;  // hides nothing
     // Of the ground in the camera's picture. It hides nothing where the camera sees it from below or from outside of its extent,
-    // or looks down or up so steeply that directions along the ground say little. O(picture's width * log(size of the ground)),
-    // by as many threads as there are.
+    // or looks down or up so steeply that directions along the ground say little. O(picture's width * size of the ground,
+    // in cells) where all of it is seen, else less; by as many threads as there are.
     Horizon(const Ground& ground, const view::Camera& camera);
     bool is_empty() const { return rises_.empty(); }
     bool is_of(const Ground& ground, const view::Camera& camera) const;
@@ -40,6 +40,7 @@ class Horizon {
     // between -bearing_most_ and this.
     double bearing_most_ = 0;
     double depth_most_ = 0;       // of any pixel's, of its way forward
+    double slant_ = 1;            // of a pixel up or down, as a way aside changes by it, and one aside, at most
     size_t sectors_ = 0;          // of bearings
     std::vector<double> ways_m_;  // forward, where it was looked at
     // [sectors, ways]: every line of sight of the sector that rises less for its way forward has met the ground up to there.

@@ -1,5 +1,7 @@
 #include "runtime/wang_ldi/land_list.h"
 
+#include <algorithm>
+
 namespace overlook::wang_ldi {
 
 uint64_t LandList::triangle_count() const {
@@ -13,13 +15,24 @@ Result<void> LandLister::list(const view::Camera& camera, const glm::dvec3& orig
     FrameOptions possible = options;
     possible.has_geometry &= forms_ != nullptr;
     Result<Field> field =
-        Field::of(planted_.parts(), field_options_of(planted_.images().set(), possible, camera, texture_side_px));
+        Field::of(parts(possible), field_options_of(planted_.images().set(), possible, camera, texture_side_px));
     if (!field) return tl::unexpected(field.error());
     out.field.emplace(std::move(*field));
     cut_ground(camera, origin_m, options.error_px, morph, out);
     out.field->list(camera, out.list, out.scratch);
     list_plants(camera, {options.error_px, options.plant_fade}, out);
     return {};
+}
+
+// A plant stands inside its tile; all of its levels within its form.
+FieldParts LandLister::parts(const FrameOptions& options) const {
+    FieldParts parts = planted_.parts();
+    for (size_t model = 0; options.has_geometry && model < forms_->size(); ++model) {
+        double scale = planted_.greatest_scales()[model];
+        parts.overhang_m = std::max(parts.overhang_m, scale * (*forms_)[model].reach_m);
+        parts.plants_high_m = std::max(parts.plants_high_m, scale * (*forms_)[model].high_m);
+    }
+    return parts;
 }
 
 void LandLister::cut_ground(const view::Camera& camera, const glm::dvec3& origin_m, double error_px, double morph,

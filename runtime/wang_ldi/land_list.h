@@ -43,6 +43,7 @@ class LandLister {
                           const view::CountedError& budget, double morph, LandList& out) const;
 
   private:
+    FieldParts parts(const FrameOptions& options) const;
     void cut_ground(const view::Camera& camera, const glm::dvec3& origin_m, double error_px, double morph, LandList& out) const;
     void list_plants(const view::Camera& camera, const PlantAccuracy& accuracy, LandList& out) const;
 

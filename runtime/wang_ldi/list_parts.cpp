@@ -1,6 +1,9 @@
 #include "runtime/wang_ldi/list_parts.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "runtime/wang_ldi/tile_error.h"
 
 namespace overlook::wang_ldi {
 namespace {
@@ -38,13 +41,13 @@ double widest_splat_m(const Field& field, const FieldList& list, const Item& ite
     const ImageSet& images = *field.parts().images;
     auto texel_m = [&](uint32_t rung) { return 1.5 * images.tile_m / field.texels_of(field.ladder().rungs[rung]); };  // aslant
     if (item.tiles_log2 > 0) return texel_m(item.last_rung);
-    double widest_m = 0;
+    double widest_m = 0, slope = field.options().widens_splats ? steepest(list.halves_of(item)) : 0;
     for (const Shown& shown : list.shown_of(item)) {
         const Rung& rung = field.ladder().rungs[shown.rung];
         if (rung.stage == Stage::ldi) {
             const Level& level = images.levels[rung.level];
-            widest_m = std::max(
-                widest_m, images.tile_m / level.side_px * (images.has_splats ? kWidestOfSample_px : double(level.splat_px)));
+            double splat_px = images.has_splats ? kWidestOfSample_px : double(level.splat_px) * std::sqrt(1 + slope * slope);
+            widest_m = std::max(widest_m, images.tile_m / level.side_px * splat_px);
         } else if (item.texels_px > 0) {
             widest_m = std::max(widest_m, texel_m(shown.rung));
         }

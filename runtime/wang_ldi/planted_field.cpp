@@ -44,10 +44,14 @@ Result<void> PlantedField::make_parts(const PlantedOptions& options) {
     }
     for (const Entry& entry : images_->entries()) sample_counts_.push_back(entry.sample_count);
 
+    greatest_scales_.assign(planting_.models.size(), 0);
     for (const auto& tile : planting_.tiles)
-        for (const Planted& object : tile)
+        for (const Planted& object : tile) {
+            auto scale = double(object.scale);
+            greatest_scales_[object.model] = std::max(greatest_scales_[object.model], scale);
             if (object.owner != Owner::interior)
-                overhang_m_ = std::max(overhang_m_, double(planting_.models[object.model].tight_radius_m) * double(object.scale));
+                overhang_m_ = std::max(overhang_m_, double(planting_.models[object.model].tight_radius_m) * scale);
+        }
 
     Result<Placement> placement = Placement::of(ground_, shared.tile_m, options.placement);
     if (!placement) return tl::unexpected(placement.error());

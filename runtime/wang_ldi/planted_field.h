@@ -50,7 +50,9 @@ class PlantedField {
     const PlaneTiling& tiling() const { return *tiling_; }
     const Placement& placement() const { return *placement_; }
     const Ground& ground() const { return ground_; }
-    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, tiling_.get(), &*placement_, overhang_m_}; }
+    const std::vector<double>& greatest_scales() const { return greatest_scales_; }  // [models] of the planting's objects
+    // Without what only those know who draw plants as geometry: plants_high_m, and an overhang of tight radii.
+    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, tiling_.get(), &*placement_, overhang_m_, 0}; }
 
   private:
     PlantedField(container::Reader file, Ground on) : file_(std::move(file)), ground_(std::move(on)) {}
@@ -65,6 +67,7 @@ class PlantedField {
     std::optional<TextureSet> textures_;
     std::vector<uint32_t> sample_counts_;
     double overhang_m_ = 0;  // as FieldParts
+    std::vector<double> greatest_scales_;
     std::optional<Placement> placement_;
     std::unique_ptr<const PlaneTiling> tiling_;
 };

@@ -39,7 +39,9 @@ struct FrameOptions {
     bool has_far = true;      // of own: textures and colours beyond the images; false: nothing is drawn there
     bool is_by_depth = true;  // of own: each pixel shows what is nearest; false: what is drawn last, as the paper's
     bool cuts_tiles = true;   // of own: tiles in pieces and along the better diagonal; false: in the paper's two halves
-    bool ground_hides = true;  // of own: what the ground hides, as it is drawn within the error, is left out before
+    // Of own: what the ground hides, as it is drawn within the error, is left out before. The same picture, but that small holes
+    // are filled beside which it would have been warped.
+    bool ground_hides = true;
     Warper warper = Warper::by_renderer;  // of own, unless it is exact
     // Who draws triangles of plants; by the renderer: the processor's own hand where that is the renderer and pictures have one
     // sample a pixel. The processor's only beside what the processor warps by depth, exactly or not, and of plants that keep

@@ -103,7 +103,8 @@ TEST(FastWarp, WhatTheGroundHidesIsBehindIt) {
             FieldList list = list_of(seen, camera);
             uint64_t samples =
                 fast.warp(camera, all, list_of(all, camera), test.at_hand(), {Hiding::by_depth, false}, whole, &test.far).samples;
-            fewer += samples - fast.warp(camera, seen, list, test.at_hand(), {Hiding::by_depth, false}, picture, &test.far).samples;
+            fewer +=
+                samples - fast.warp(camera, seen, list, test.at_hand(), {Hiding::by_depth, false}, picture, &test.far).samples;
             warp_field(camera, seen, list, test.all(), Hiding::by_depth, exact, &test.far);
             EXPECT_LE(differing(exact, picture), exact.colours.size() / 100000);
             for (size_t p = 0; p < whole.colours.size(); ++p) {

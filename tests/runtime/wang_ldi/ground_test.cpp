@@ -93,9 +93,8 @@ TEST(Ground, LowestOfAWayIsTheLeastOfItsPlaces) {
         EXPECT_LE(found, lowest + 1e-9);
         EXPECT_GE(found, lowest - 2 * steepest - 1e-9);
     }
-    terrain::Terrain torn = terrain_of(21, 21, 10, 10, [](uint32_t column, uint32_t row) {
-        return column == 10 && row == 10 ? double(NAN) : 200.0;
-    });
+    terrain::Terrain torn =
+        terrain_of(21, 21, 10, 10, [](uint32_t column, uint32_t row) { return column == 10 && row == 10 ? double(NAN) : 200.0; });
     Ground with_void(torn);
     Ground::Asked of_void;
     EXPECT_TRUE(std::isnan(with_void.lowest_m({10, -98}, {190, -97}, of_void)));

@@ -119,6 +119,17 @@ TEST(PlantingSettings, WithoutCutsTilesStandInTheTwoHalvesOfThePaper) {
     EXPECT_GT(whole.counts.displacement_px, cut.counts.displacement_px);
 }
 
+TEST(PlantingSettings, WhatTheGroundHidesIsLeftOutUnlessItMayBeSeenThrough) {
+    FrameOptions own = with("ground-hides", 1), through = with("ground-hides", 0), coarse = with("error-px", 3);
+    EXPECT_EQ(field_options(own).ground_error_px, own.error_px);
+    EXPECT_EQ(field_options(coarse).ground_error_px, 3);
+    EXPECT_TRUE(std::isinf(field_options(through).ground_error_px));
+    EXPECT_TRUE(std::isinf(field_options(defaults_of(Variant::paper)).ground_error_px));
+    EXPECT_GT(listed(own).counts.hidden, 0u);
+    EXPECT_EQ(listed(through).counts.hidden, 0u);
+    EXPECT_EQ(listed(through).items.size(), listed(own).items.size() + listed(own).counts.hidden);
+}
+
 TEST(PlantingSettings, WithoutSlopeSplatsSamplesAreAsWideAsOnFlatGround) {
     auto written = [](double value) {
         Field field = hilly_field().field(field_options(with("slope-splats", value)));

@@ -18,7 +18,7 @@ constexpr uint8_t kOwnMet = 4, kOwnMetAmongMany = 2, kManyMet = 6;
 // To both sides: what the middle eye of so wide a wedge sees of a thing tells of what others do. Into a wider one so many look.
 constexpr double kWidestWedge_rad = M_PI / 3;
 constexpr uint32_t kEyesOfWide = 16;
-constexpr size_t kAtOnce = 256;                // samples whose rays are shot together
+constexpr size_t kAtOnce = 256;  // samples whose rays are shot together
 
 // Places of a window, in pixels across the line of sight; those of its middle first.
 struct Places {

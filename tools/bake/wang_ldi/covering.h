@@ -14,12 +14,12 @@ namespace overlook::wang_ldi {
 
 // Of a window three pixels wide round each sample, at its depth, as an eye in the middle of the wedge looks at it: how much rays
 // meet, and how much samples would cover. A sample is kept whatever else where about half of its own places are met (nearly two
-// pixels wide), or fewer where a quarter of the window is: without, grass covers 1.1 times what it should, for 1.6 (of all samples
-// 2.6 times), but where it is dense 2.6 % of its pixels stay empty when small holes are filled, for 0.03 %. Into a wedge wider
-// than 60 degrees to both sides, whose middle eye does not tell how a thing looks to the others, sixteen look: each sample is kept
-// whatever else by what the one sees that it faces most, else by what any of them sees. Same arguments, same samples. 25 rays a
-// sample at most, 34 of a wide wedge.
-// focal_px: of the picture that the image is for, in which samples are drawn in whole pixels, one at least.
+// pixels wide), or fewer where a quarter of the window is: without, grass covers 1.1 times what it should, for 1.6 (of all
+// samples 2.6 times), but where it is dense 2.6 % of its pixels stay empty when small holes are filled, for 0.03 %. Into a wedge
+// wider than 60 degrees to both sides, whose middle eye does not tell how a thing looks to the others, sixteen look: each sample
+// is kept whatever else by what the one sees that it faces most, else by what any of them sees. Same arguments, same samples. 25
+// rays a sample at most, 34 of a wide wedge. focal_px: of the picture that the image is for, in which samples are drawn in whole
+// pixels, one at least.
 Sampled covering(std::span<const TraceStage> stages, const Wedge& wedge, double focal_px, Sampled all, uint64_t seed);
 
 // The share of samples to keep (1 of no place) so that on average as much of a window is covered as `wanted`, 0..1.
