@@ -129,14 +129,18 @@ double CountedError::error_px(double least_error_px, const std::function<double(
 
 double CountedError::filled_px(double finest_px, double error_px, double cost, const std::function<double(double)>& count) const {
     constexpr int kHalvings = 8;
-    if (!(most_ > 0 && finest_px < error_px) || cost >= kRestFrom * most_) return error_px;
-    double finest = count(finest_px), wanted = std::min(finest, kAimFrom * most_), fine_px = finest_px, coarse_px = error_px;
-    if (finest >= kRestFrom * most_ && finest <= wanted) return finest_px;
-    for (int n = 0; finest > wanted && n < kHalvings; ++n) {
-        double middle_px = std::sqrt(fine_px * coarse_px);
-        (count(middle_px) >= wanted ? fine_px : coarse_px) = middle_px;
+    double least = kRestFrom * most_, aim = kAimFrom * most_;
+    if (!(most_ > 0 && finest_px < error_px) || cost >= least) return error_px;
+    double finest = count(finest_px);
+    if (finest >= least && finest <= aim) return finest_px;
+    if (finest > aim) {
+        double fine_px = finest_px, coarse_px = error_px;
+        for (int n = 0; n < kHalvings; ++n) {
+            double middle_px = std::sqrt(fine_px * coarse_px);
+            (count(middle_px) >= aim ? fine_px : coarse_px) = middle_px;
+        }
+        if (count(fine_px) <= most_) return fine_px;
     }
-    if (finest > wanted && count(fine_px) <= most_) return fine_px;
     count(error_px);
     return error_px;
 }

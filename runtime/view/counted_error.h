@@ -22,15 +22,15 @@ class CountedError {
     double most() const { return most_; }
 
     // What to ask of the next frame: least_error_px > 0, or the error above it, up to 256 px, at which it costs 96 to 99 % of the
-    // budget; where cost jumps over that, the next error that costs no more than all of it, or one up to 8 % below where it costs
-    // 95 % at least and no more than 105 between. Rests while the last answer costs
-    // between 95 and 100 %. If the greatest error costs more, that.
-    // count: what the frame costs at an error, falling with it but for small ups; it is last asked for what is returned.
+    // budget; where cost jumps over that, the next error that costs no more than all of it, or one up to 8 % below that costs 95
+    // % at least if none between costs more than 105. Rests while the last answer costs between 95 and 100 %. If the greatest
+    // error costs more, that. count: what the frame costs at an error, falling with it but for small ups; it is last asked for
+    // what is returned.
     double error_px(double least_error_px, const std::function<double(double error_px)>& count);
     // How often the last of these counted: 1 at rest or without a budget or if that cannot be kept, 3 at rest beside a jump (17
-    // at first beside one to less than 105 %); of
-    // errors from 0.001 px on 23 at most: two where it begins, steps that grow by half from 0.01 of the logarithm on, 16 of which
-    // are more than all there is to 256 px, halvings up to 22 together, and the answer once more.
+    // at first beside one to less than 105 %); of errors from 0.001 px on 23 at most: two where it begins, steps that grow by
+    // half from 0.01 of the logarithm on, 16 of which are more than all there is to 256 px, halvings up to 22 together, and the
+    // answer once more.
     int count_count() const { return count_count_; }
 
     // Where many things of a frame come and go at once, so that it leaves more of the budget than kRestFrom over: at which error

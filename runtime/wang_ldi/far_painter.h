@@ -63,7 +63,6 @@ class FarPainter {
 
   private:
     static constexpr uint32_t kLooked_log2 = 2;  // before a square is looked at, the texels in it are asked if they draw anything
-    static constexpr uint32_t kHidden_log2 = 1;  // smaller squares are drawn sooner than it is found that the ground hides them
 
     // A square of tiles: as one texel, or in strips, or its quarters, as the rung of its middle says and how flat it looks.
     // block: of a square that it is part of.
@@ -80,8 +79,10 @@ class FarPainter {
             if (coverage == Placement::Coverage::none) return;
             block.is_planted = coverage == Placement::Coverage::all;
         }
-        if (log2 < item_->tiles_log2 && (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_))) return;
-        if (log2 < item_->tiles_log2 && log2 >= kHidden_log2 && field_.is_hidden(list_, rect, range.high_m, widest_m_)) return;
+        if (log2 < item_->tiles_log2) {  // the item itself was asked about as it was listed
+            if (range.is_empty() || !view_.may_be_seen(rect, range, widest_m_)) return;
+            if (field_.is_hidden(list_, rect, range.high_m, widest_m_)) return;
+        }
         if (!block.is_of_one || log2 > block.tiles_log2 + 1) block = view_.looked_closer(block, rect, range, far_);
         block.is_of_one &= log2 >= block.tiles_log2;  // a field may list squares that are smaller than texels
         if (log2 <= coarsest_log2_ && !(block.is_of_one && log2 > block.tiles_log2) && draw_square({i, j, log2}, block)) return;

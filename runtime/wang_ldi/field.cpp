@@ -84,18 +84,13 @@ Result<Field> Field::of(const FieldParts& parts, const FieldOptions& options) {
     const std::vector<Rung>& rungs = made.ladder_.rungs;
     made.highest_m_ = std::max(images.high_m + highest_step_m(images), parts.plants_high_m);
     made.has_geometry_ = rungs.front().stage == Stage::geometry;
+    made.overhang_m_ = made.has_geometry_ ? parts.overhang_m : 0;
     for (const Rung& rung : rungs) {
         if (rung.stage > Stage::ldi) made.images_to_m_ = std::min(made.images_to_m_, rung.fade_from_m);
         if (rung.stage >= Stage::texture) made.blocks_from_m_ = std::min(made.blocks_from_m_, rung.fade_to_m);
         if (rung.stage == Stage::bare) made.reach_m_ = rung.fade_to_m;
     }
     return made;
-}
-
-std::shared_ptr<const Horizon> Field::horizon(const view::Camera& camera, std::shared_ptr<const Horizon> last) const {
-    if (!std::isfinite(options_.ground_error_px)) return nullptr;
-    const Ground& ground = parts_.placement->ground();
-    return last && last->is_of(ground, camera) ? last : std::make_shared<Horizon>(ground, camera);
 }
 
 uint64_t Field::image_of(const Item& item, const Shown& shown) const {

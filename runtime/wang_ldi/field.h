@@ -50,7 +50,7 @@ struct FieldOptions {
     double block_share = 0.25;      // side of a block of tiles at most, of its distance; 0..0.5
     // No place of the ground is drawn farther from where it is: what it hides then is left out. Infinite: it hides nothing.
     double ground_error_px = std::numeric_limits<double>::infinity();
-    bool widens_splats = true;      // by as much as samples stand farther apart on a slope
+    bool widens_splats = true;  // by as much as samples stand farther apart on a slope
 };
 // As the paper draws: tiles up to 40 tiles away by images alone, without fades, each sheared in two.
 FieldOptions paper_options(const ImageSet& set);
@@ -121,7 +121,7 @@ struct FieldList {
     std::vector<Shown> shown;
     std::vector<Half> halves;
     FieldCounts counts;
-    std::shared_ptr<const Horizon> horizon;  // null: nothing is hidden
+    std::shared_ptr<const Horizon> horizon;  // of the camera listed for; null: nothing is hidden
 
     std::span<const Shown> shown_of(const Item& item) const { return {shown.data() + item.first_shown, item.shown_count}; }
     std::span<const Half> halves_of(const Item& item) const { return {halves.data() + item.first_half, item.half_count}; }
@@ -140,7 +140,6 @@ struct Found {
 struct FieldScratch {
     std::vector<Found> found;
     std::vector<FieldList> parts;
-    std::shared_ptr<const Horizon> horizon;  // of the camera listed for last
 };
 
 // By what a place is shown.
@@ -190,12 +189,13 @@ class Field {
 
   private:
     Field() = default;
-    std::shared_ptr<const Horizon> horizon(const view::Camera& camera, std::shared_ptr<const Horizon> last) const;
+    void begin(const view::Camera& camera, FieldList& list) const;
     FieldParts parts_;
     FieldOptions options_;
     Ladder ladder_;
     bool has_geometry_ = false;
     double highest_m_ = 0;      // anything that is drawn stands above its ground
+    double overhang_m_ = 0;     // or reaches over its tile's edges
     double images_to_m_ = 0;    // nothing but images and geometry is shown up to here
     double blocks_from_m_ = 0;  // nothing but textures and colours is shown from here on
     double reach_m_ = 0;        // nothing is

@@ -82,8 +82,7 @@ class FieldLister {
     // Geometry reaches over its tile's edges, images do not.
     bool is_hidden(const Item& item, Rect rect, const GroundRange& ground) const {
         if (!list_.horizon) return false;
-        double over_m = field_.has_geometry_ ? field_.parts_.overhang_m : 0;
-        rect.low_m -= over_m, rect.high_m += over_m;
+        rect.low_m -= field_.overhang_m_, rect.high_m += field_.overhang_m_;
         return field_.is_hidden(list_, rect, ground.high_m, widest_splat_m(field_, list_, item));
     }
 
@@ -245,17 +244,24 @@ void FieldList::append(const FieldList& other) {
     counts.add(other.counts);
 }
 
-void Field::list(const view::Camera& camera, FieldList& list) const {
+// A list that was of the same camera keeps its horizon.
+void Field::begin(const view::Camera& camera, FieldList& list) const {
+    std::shared_ptr<const Horizon> last = std::move(list.horizon);
     list.clear();
-    list.horizon = horizon(camera, nullptr);
+    if (!std::isfinite(options_.ground_error_px)) return;
+    const Ground& ground = parts_.placement->ground();
+    list.horizon = last && last->is_of(ground, camera) ? last : std::make_shared<Horizon>(ground, camera);
+}
+
+void Field::list(const view::Camera& camera, FieldList& list) const {
+    begin(camera, list);
     FieldLister lister(*this, camera, list);
     FieldWalk(*this, camera).run(list.counts, [&](const Found& found) { lister.add(found); });
 }
 
 void Field::list(const view::Camera& camera, FieldList& list, FieldScratch& scratch) const {
     constexpr size_t kAtOnce = 32;
-    list.clear(), scratch.found.clear();
-    list.horizon = scratch.horizon = horizon(camera, scratch.horizon);
+    begin(camera, list), scratch.found.clear();
     FieldWalk(*this, camera).run(list.counts, [&](const Found& found) { scratch.found.push_back(found); });
     size_t parts = (scratch.found.size() + kAtOnce - 1) / kAtOnce;
     if (scratch.parts.size() < parts) scratch.parts.resize(parts);

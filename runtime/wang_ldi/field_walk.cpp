@@ -66,9 +66,8 @@ void FieldWalk::visit(int64_t i, int64_t j, uint8_t log2) {
 // Whether some of a rectangle with what is planted on it may be: a box behind one of the sides is not. Geometry reaches over
 // its edges, images do not.
 bool FieldWalk::is_in_sight(const Rect& rect, const GroundRange& ground) const {
-    double over_m = field_.has_geometry_ ? field_.parts_.overhang_m : 0;
-    glm::dvec3 low = glm::dvec3(rect.low_m - over_m, ground.low_m + images_.low_m) - eye_m_;
-    glm::dvec3 high = glm::dvec3(rect.high_m + over_m, ground.high_m + images_.high_m) - eye_m_;
+    glm::dvec3 low = glm::dvec3(rect.low_m - field_.overhang_m_, ground.low_m + images_.low_m) - eye_m_;
+    glm::dvec3 high = glm::dvec3(rect.high_m + field_.overhang_m_, ground.high_m + field_.highest_m_) - eye_m_;
     auto farthest = [&](const glm::dvec3& along) {
         return std::max(along.x * low.x, along.x * high.x) + std::max(along.y * low.y, along.y * high.y) +
                std::max(along.z * low.z, along.z * high.z);

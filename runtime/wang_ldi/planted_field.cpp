@@ -46,12 +46,8 @@ Result<void> PlantedField::make_parts(const PlantedOptions& options) {
 
     greatest_scales_.assign(planting_.models.size(), 0);
     for (const auto& tile : planting_.tiles)
-        for (const Planted& object : tile) {
-            auto scale = double(object.scale);
-            greatest_scales_[object.model] = std::max(greatest_scales_[object.model], scale);
-            if (object.owner != Owner::interior)
-                overhang_m_ = std::max(overhang_m_, double(planting_.models[object.model].tight_radius_m) * scale);
-        }
+        for (const Planted& object : tile)
+            greatest_scales_[object.model] = std::max(greatest_scales_[object.model], double(object.scale));
 
     Result<Placement> placement = Placement::of(ground_, shared.tile_m, options.placement);
     if (!placement) return tl::unexpected(placement.error());

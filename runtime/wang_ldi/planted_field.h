@@ -51,8 +51,8 @@ class PlantedField {
     const Placement& placement() const { return *placement_; }
     const Ground& ground() const { return ground_; }
     const std::vector<double>& greatest_scales() const { return greatest_scales_; }  // [models] of the planting's objects
-    // Without what only those know who draw plants as geometry: plants_high_m, and an overhang of tight radii.
-    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, tiling_.get(), &*placement_, overhang_m_, 0}; }
+    // Without what only those know who draw plants as geometry: overhang_m and plants_high_m.
+    FieldParts parts() const { return {&images_->set(), sample_counts_, &set_, tiling_.get(), &*placement_}; }
 
   private:
     PlantedField(container::Reader file, Ground on) : file_(std::move(file)), ground_(std::move(on)) {}
@@ -66,7 +66,6 @@ class PlantedField {
     std::optional<ImageReader> images_;
     std::optional<TextureSet> textures_;
     std::vector<uint32_t> sample_counts_;
-    double overhang_m_ = 0;  // as FieldParts
     std::vector<double> greatest_scales_;
     std::optional<Placement> placement_;
     std::unique_ptr<const PlaneTiling> tiling_;

@@ -1,4 +1,4 @@
-// Frames of a planting of mounds on a plain.
+// Frames of a planting of mounds, on a plain unless a terrain is given.
 #pragma once
 
 #include "runtime/wang_ldi/draw_land.h"
@@ -16,10 +16,10 @@ class PlantedFrames : public ::testing::Test {
         if (!context_) GTEST_SKIP() << "no software renderer: " << reason;
     }
     // The folder's mounds.ovl, and the chains that are planted if any are named.
-    void read_land(const scene::Planting& planting = {}) {
+    void read_land(const scene::Planting& planting = {}, std::optional<terrain::Terrain> terrain = {}) {
         auto file = container::Reader::open(folder_ / "mounds.ovl");
         ASSERT_TRUE(file);
-        auto land = PlantedLand::read(std::move(*file), {}, planting, folder_ / "scene.json");
+        auto land = PlantedLand::read(std::move(*file), std::move(terrain), planting, folder_ / "scene.json");
         ASSERT_TRUE(land) << land.error().message;
         land_ = std::move(*land);
         if (!planting.models.empty()) {

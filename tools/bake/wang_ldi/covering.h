@@ -18,8 +18,8 @@ namespace overlook::wang_ldi {
 // samples 2.6 times), but where it is dense 2.6 % of its pixels stay empty when small holes are filled, for 0.03 %. Into a wedge
 // wider than 60 degrees to both sides, whose middle eye does not tell how a thing looks to the others, sixteen look: each sample
 // is kept whatever else by what the one sees that it faces most, else by what any of them sees. Same arguments, same samples. 25
-// rays a sample at most, 34 of a wide wedge. focal_px: of the picture that the image is for, in which samples are drawn in whole
-// pixels, one at least.
+// rays a sample at most, 34 of a wide wedge.
+// focal_px: of the picture that the image is for, in which samples are drawn in whole pixels, one at least.
 Sampled covering(std::span<const TraceStage> stages, const Wedge& wedge, double focal_px, Sampled all, uint64_t seed);
 
 // The share of samples to keep (1 of no place) so that on average as much of a window is covered as `wanted`, 0..1.
